@@ -167,9 +167,9 @@ select=()
 targets=()
 case "$folders" in
   asan) wanted='core math curve mesh network edit convert body io collide fuzz' ;;
-  asan-all) wanted='core math curve mesh network edit convert body io collide avoid growth surface scene gpu render golden viewer fuzz' ;;
+  asan-all) wanted='core math curve mesh network edit convert body io collide solids avoid repair growth surface scene gpu render golden viewer fuzz' ;;
   tsan) wanted='core convert collide' ;;
-  tsan-all) wanted='core convert body collide avoid growth scene gpu render viewer' ;;
+  tsan-all) wanted='core convert body collide solids avoid repair growth scene gpu render viewer' ;;
   *) wanted='' ;;
 esac
 for name in $wanted; do

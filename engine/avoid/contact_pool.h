@@ -3,11 +3,11 @@
 #include <span>
 #include <vector>
 
-#include "avoid/bones.h"
 #include "avoid/interference.h"
 #include "avoid/motion_space.h"
 #include "avoid/side_places.h"
 #include "avoid/sides.h"
+#include "solids/bones.h"
 
 namespace vasa {
 

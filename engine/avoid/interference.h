@@ -8,10 +8,6 @@
 
 namespace vasa {
 
-/// A pair that overlaps at rest may be deeper by so much before it counts [m]: network files round
-/// coordinates and radii by up to 15 µm, so that is how well the depth at rest is known.
-constexpr float kRestTolerance = 2e-5f;
-
 /// Finds where a network's tubes run through one another, and knows which did so at rest already.
 ///
 /// Tubes near one another along the network (collide/neighbours.h) are left out: they belong together. Two

@@ -2,8 +2,8 @@
 #include <span>
 #include <vector>
 
-#include "avoid/bones.h"
 #include "avoid/interference.h"
+#include "solids/bones.h"
 
 namespace vasa {
 

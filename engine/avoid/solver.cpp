@@ -9,8 +9,8 @@
 
 #include "avoid/contact_pool.h"
 #include "avoid/nearby_steps.h"
-#include "avoid/skin_wall.h"
 #include "core/clock.h"
+#include "solids/skin_wall.h"
 
 namespace vasa {
 namespace {

@@ -3,13 +3,13 @@
 #include <optional>
 #include <vector>
 
-#include "avoid/bones.h"
 #include "avoid/certificate.h"
 #include "avoid/correction.h"
 #include "avoid/lumen.h"
 #include "avoid/posed_vessels.h"
 #include "body/body.h"
 #include "body/volume.h"
+#include "solids/bones.h"
 
 namespace vasa {
 

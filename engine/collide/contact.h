@@ -28,4 +28,8 @@ struct Contact {
   vec3 normal{0, 0, 1};        ///< unit, from C_j(t) to C_i(s); some perpendicular where the two coincide
 };
 
+/// What overlaps at rest may be deeper by so much before it counts [m]: network files round coordinates and
+/// radii by up to 15 µm, so that is how well the depth at rest is known.
+constexpr float kRestTolerance = 2e-5f;
+
 }  // namespace vasa

@@ -4,10 +4,10 @@
 
 #include <random>
 
-#include "avoid/walk.h"
 #include "core/hash.h"
 #include "core/parallel.h"
 #include "support/networks.h"
+#include "support/walk.h"
 
 using namespace vasa;
 

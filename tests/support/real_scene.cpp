@@ -1,9 +1,9 @@
 #include "support/real_scene.h"
 
-#include "avoid/rest_repair.h"
 #include "convert/convert.h"
 #include "io/gltf.h"
 #include "network/file.h"
+#include "repair/rest_repair.h"
 
 namespace vasa::test {
 

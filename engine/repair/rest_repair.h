@@ -31,7 +31,7 @@ struct RestRepair {
 
 /// Parts vessels that overlap at rest, as sources draw them that were made one by one: what the certificate
 /// of a frame would have to leave out (avoid/certificate.h). They are moved aside, the thin more than the
-/// wide, and where there is no room for that, thinned (avoid/rest_parting.h). Between them stays what
+/// wide, and where there is no room for that, thinned (repair/rest_parting.h). Between them stays what
 /// rounding them in a file may take away (network/file.h). Two vessels that run along the same course are one
 /// told twice: there is no side to go to, and both are left as they are. So is a tangle, which has several
 /// times as many pairs as sweeps. Thinner vessels have fewer neighbours along the network

@@ -1,4 +1,4 @@
-#include "avoid/walk.h"
+#include "support/walk.h"
 
 #include <algorithm>
 #include <cmath>

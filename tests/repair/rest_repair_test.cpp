@@ -1,10 +1,10 @@
-#include "avoid/rest_repair.h"
+#include "repair/rest_repair.h"
 
 #include <doctest/doctest.h>
 
 #include "avoid/interference.h"
-#include "avoid/walk.h"
 #include "support/networks.h"
+#include "support/walk.h"
 
 using namespace vasa;
 

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "avoid/interference.h"
 #include "body/body.h"
+#include "collide/contact.h"
 #include "curve/bezier.h"
 
 namespace vasa {

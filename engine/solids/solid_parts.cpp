@@ -1,4 +1,4 @@
-#include "avoid/solid_parts.h"
+#include "solids/solid_parts.h"
 
 #include <algorithm>
 #include <optional>

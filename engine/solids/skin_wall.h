@@ -2,7 +2,7 @@
 #include <span>
 #include <vector>
 
-#include "avoid/bones.h"
+#include "solids/bones.h"
 
 namespace vasa {
 

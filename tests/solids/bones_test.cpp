@@ -1,14 +1,14 @@
-#include "avoid/bones.h"
+#include "solids/bones.h"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 
-#include "avoid/walk.h"
 #include "collide/network_tubes.h"
 #include "network/builder.h"
 #include "support/meshes.h"
 #include "support/networks.h"
+#include "support/walk.h"
 
 using namespace vasa;
 

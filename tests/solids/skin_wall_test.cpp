@@ -1,10 +1,10 @@
-#include "avoid/skin_wall.h"
+#include "solids/skin_wall.h"
 
 #include <doctest/doctest.h>
 
-#include "avoid/walk.h"
 #include "support/meshes.h"
 #include "support/networks.h"
+#include "support/walk.h"
 
 using namespace vasa;
 

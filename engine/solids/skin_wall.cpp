@@ -1,4 +1,4 @@
-#include "avoid/skin_wall.h"
+#include "solids/skin_wall.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "avoid/rest_parting.h"
+#include "repair/rest_parting.h"
 
 #include <algorithm>
 #include <cmath>

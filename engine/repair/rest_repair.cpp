@@ -1,4 +1,4 @@
-#include "avoid/rest_repair.h"
+#include "repair/rest_repair.h"
 
 #include <algorithm>
 #include <array>
@@ -7,10 +7,10 @@
 #include <set>
 #include <tuple>
 
-#include "avoid/rest_parting.h"
 #include "core/cancellation.h"
 #include "network/file.h"
 #include "network/reshape.h"
+#include "repair/rest_parting.h"
 
 namespace vasa {
 namespace {

@@ -1,4 +1,4 @@
-#include "avoid/bones.h"
+#include "solids/bones.h"
 
 #include <algorithm>
 #include <array>
@@ -8,12 +8,12 @@
 #include <optional>
 #include <tuple>
 
-#include "avoid/solid_parts.h"
 #include "body/skinning.h"
 #include "collide/distance_field.h"
 #include "core/parallel.h"
 #include "math/aabb.h"
 #include "math/direction.h"
+#include "solids/solid_parts.h"
 
 namespace vasa {
 namespace {
