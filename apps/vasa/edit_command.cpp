@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "avoid/rest_repair.h"
 #include "commands.h"
 #include "core/atomic_file.h"
 #include "core/cancellation.h"
@@ -12,6 +11,7 @@
 #include "network/file.h"
 #include "network/measure.h"
 #include "network_output.h"
+#include "repair/rest_repair.h"
 #include "report.h"
 #include "rest_report.h"
 #include "scene/vessel_files.h"

@@ -22,7 +22,7 @@ struct Options {
   std::string output;
 };
 
-// Where its motions bring vessels near bones: a first look at a place takes long (avoid/bones.h).
+// Where its motions bring vessels near bones: a first look at a place takes long (solids/bones.h).
 void solveAll(Scene& scene, const SceneFile& file, const ReadingProgress& told) {
   clearArms(file, scene.body, scene.body.clips);
   FrameMaker frames(scene,

@@ -1,5 +1,5 @@
 #pragma once
-#include "avoid/rest_repair.h"
+#include "repair/rest_repair.h"
 #include "report.h"
 
 namespace vasa::cli {

@@ -26,6 +26,8 @@ constexpr float kNamedRatio = 3.5f;
 // Of radii: a thick vessel does not go on in a thin one, nor hang on it.
 constexpr float kLargestRatio = 2.5f;
 constexpr float kAheadCost = 0.25f;  // straight-ahead joins cost this much more than touching ones
+// Of the way to the axis straight across: a slant of 30 degrees.
+constexpr float kFarthestAhead = 2;
 constexpr int kAheadSteps = 12;
 constexpr float kTouchRadii = 0.15f;
 constexpr std::size_t kNoSection = std::size_t(-1);
@@ -369,9 +371,15 @@ class Attacher {
     return true;
   }
 
-  // Ahead of the tip rather than square across, so that a branch keeps its slant into the host.
+  // Where the branch's own course comes nearest to the host's axis, so that it keeps its slant.
   static vec3 placeOnHost(const OpenTip& tip, const Sections& host, const Along& at) {
-    return vec3(nearestAlong(host, tip.place + 0.7f * at.distance * tip.outward).section);
+    Along best = at;
+    for (int step = 1; step <= kAheadSteps; ++step) {
+      const float way = kFarthestAhead * at.distance * float(step) / kAheadSteps;
+      const Along there = nearestAlong(host, tip.place + way * tip.outward);
+      if (there.distance < best.distance) best = there;
+    }
+    return vec3(best.section);
   }
 
   // Sections at the tip that the host's lumen swallows.
