@@ -56,7 +56,7 @@ float endRadius(const Sections& sections, bool last) {
 vec3 outwardDirection(const Sections& sections, bool last) {
   const float radius = endRadius(sections, last), length = lengthOf(sections);
   const auto at = [&](float arc) { return vec3(atArc(sections, last ? length - arc : arc).section); };
-  const float far = std::min(2.5f * radius, length), near = std::min(0.5f * radius, 0.2f * far);
+  const float far = std::min(3.5f * radius, length), near = std::min(1.5f * radius, 0.3f * far);
   const vec3 away = at(near) - at(far);
   const float size = glm::length(away);
   return size > 0 ? away / size : vec3(0, 1, 0);

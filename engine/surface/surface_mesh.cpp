@@ -199,6 +199,18 @@ class MeshLayout {
     return {place.vertex + (row - 2 - branch) * m + k, true};
   }
 
+  // A vessel's wall ends half way to the next one's ring, so that where both end in a ring of their own is
+  // where they meet; but a trunk's first vessel keeps all of its holes.
+  std::uint32_t vesselAt(const shared::ForkRecord& fork, std::uint32_t row) const {
+    if (row < shared::kTrunkRows) {
+      const std::uint32_t last = fork.branchCount > 0 ? shared::kTrunkRows - 2 : shared::kTrunkRows / 2;
+      return row <= last ? fork.vesselA : fork.vesselB;
+    }
+    const std::uint32_t branch = (row - shared::kTrunkRows) / kBranchRows;
+    if (row <= holeRow(branch) + shared::kCollarRows / 2) return fork.vesselA;
+    return network_.table.branches[fork.firstBranch + branch].vessel;
+  }
+
   std::vector<uvec3> writeFork(std::uint32_t index) {
     const ForkPlace& place = forks_[index];
     const shared::ForkRecord& fork = network_.table.forks[index];
@@ -208,13 +220,17 @@ class MeshLayout {
         evaluateFork(network_, fork, shape, points, fixed_.empty() ? nullptr : &fixed_[index]);
     for (std::uint32_t vertex = 0; vertex < points.size(); ++vertex) {
       const auto [target, own] = targetOf(place, layout, vertex);
-      if (own) put(target, points[vertex], network_.table.vesselOfFork[index]);
+      if (own) put(target, points[vertex], vesselAt(fork, vertex / shape_.around));
     }
+    // A triangle's vessel is that of its first vertex (SurfaceMesh): of the last row that it touches.
     std::vector<uvec3> triangles =
         forkTriangles(shape, layout, fixed_.empty() ? points : std::span<const SurfacePoint>());
-    for (uvec3& t : triangles)
+    for (uvec3& t : triangles) {
+      if (t.y > t.x && t.y > t.z) t = {t.y, t.z, t.x};
+      if (t.z > t.x && t.z > t.y) t = {t.z, t.x, t.y};
       t = {targetOf(place, layout, t.x).first, targetOf(place, layout, t.y).first,
            targetOf(place, layout, t.z).first};
+    }
     return triangles;
   }
 

@@ -10,7 +10,9 @@ namespace vasa {
 /// to no triangle.
 struct SurfaceMesh {
   std::vector<vec3> positions, normals;  ///< one a vertex [m], unit
-  std::vector<uvec3> triangles;          ///< counter-clockwise seen from outside
+  /// Counter-clockwise seen from outside. A triangle belongs to its first vertex's vessel, so that each
+  /// vessel begins and ends with whole rings.
+  std::vector<uvec3> triangles;
   std::vector<std::uint32_t>
       vesselOfVertex;  ///< index into Network::vessels(); a shared ring's is one of its vessels
 };

@@ -2,8 +2,13 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
+#include <map>
+
 #include "core/hash.h"
 #include "core/parallel.h"
+#include "network/builder.h"
 #include "support/frames.h"
 #include "support/manifold.h"
 #include "support/networks.h"
@@ -20,6 +25,52 @@ TEST_CASE("the one mesh of a network names the vessel of every vertex") {
   for (const int count : seen) CHECK(count > 0);
   for (const uvec3& t : mesh.triangles)
     for (int i = 0; i < 3; ++i) CHECK(t[i] < mesh.positions.size());
+}
+
+TEST_CASE("of two vessels that go on in one another each has its wall up to where they meet") {
+  const auto piece = [](float from, float to) {
+    std::vector<vec4> points;
+    for (int k = 0; k <= 8; ++k) points.emplace_back(0, glm::mix(from, to, float(k) / 8), 0, 0.004f);
+    return points;
+  };
+  NetworkBuilder builder;
+  const VesselId lower = builder.addVessel({"lower", "", VesselKind::artery}, piece(0, 0.1f));
+  const VesselId upper = builder.addVessel({"upper", "", VesselKind::artery}, piece(0.1f, 0.2f));
+  builder.joinEnds({{lower, true}, {upper, false}});
+  const Network network = test::built(builder);
+  const SurfaceMesh mesh = surfaceMesh(network, network.points(), test::framesOf(network), {8, 3});
+  std::array<float, 2> highest{}, lowest{1, 1};
+  for (const uvec3& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t vessel = mesh.vesselOfVertex[t.x];
+      highest[vessel] = std::max(highest[vessel], mesh.positions[t[k]].y);
+      lowest[vessel] = std::min(lowest[vessel], mesh.positions[t[k]].y);
+    }
+  CHECK(highest[0] == doctest::Approx(0.1).epsilon(0.01));
+  CHECK(lowest[1] == doctest::Approx(0.1).epsilon(0.01));
+}
+
+TEST_CASE("each vessel's part of the mesh begins and ends with whole rings") {
+  const Network network = test::branchingNetwork(41, 2);
+  const SurfaceMesh mesh = surfaceMesh(network, network.points(), test::framesOf(network), {8, 3});
+  std::map<std::uint32_t, std::map<std::pair<std::uint32_t, std::uint32_t>, int>> edges;  // by vessel
+  for (const uvec3& t : mesh.triangles) {
+    if (t.x == t.y || t.y == t.z || t.z == t.x) continue;
+    for (int k = 0; k < 3; ++k) {
+      const auto [from, to] = std::minmax(t[k], t[(k + 1) % 3]);
+      ++edges[mesh.vesselOfVertex[t.x]][{from, to}];
+    }
+  }
+  std::size_t rims = 0;
+  for (const auto& [vessel, own] : edges) {
+    std::map<std::uint32_t, int> open;  // rims that a vertex lies on, twice
+    for (const auto& [edge, count] : own)
+      if (count == 1) ++open[edge.first], ++open[edge.second];
+    for (const auto& [vertex, count] : open) CHECK(count == 2);
+    CHECK(open.size() % 8 == 0);
+    rims += open.size() / 8;
+  }
+  CHECK(rims > 41);
 }
 
 TEST_CASE("the surface of branching networks is closed at all extremes of m and n, whatever the threads") {
