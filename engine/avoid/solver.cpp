@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "avoid/contact_pool.h"
-#include "avoid/nearby_steps.h"
+#include "avoid/pace.h"
 #include "core/clock.h"
 #include "solids/skin_wall.h"
 
@@ -29,17 +29,9 @@ constexpr float kDeepest = 0.5f;
 // without a bound on the first it has a jump of 16 mm.
 constexpr float kDeepestInBone = 1.5f, kDeepestUnsure = 1, kLeastRadius = 1e-3f;
 constexpr float kSureOfBone = 0.8f;  // cosine of the two ways: 37 degrees
-// [m/s] at which a vessel may be moved aside among others that stand still
-constexpr float kPace = 0.04f;
-// ... and of what moves near by: it is looked at point by point, and may be as much slower between them
-constexpr float kPaceShare = 0.98f;
-// [m] around it that counts: less than what eyes, and CorrectionSteps, look at together
-constexpr float kNear = 0.045f;
-// [m] ... to what has got caught: it starts anew first, at its pace. With 0 the scanned body's punch stays
-// caught.
+// [m] of what has got caught that starts anew with it first, at its pace. With 0 the scanned body's punch
+// stays caught.
 constexpr float kHere = 0.005f;
-// [m] that anything is held aside: what is caught on another limb is let go there
-constexpr float kFarthestAside = 0.04f;
 constexpr float kNoLimit = Correction::kNoLimit;
 
 std::uint32_t tubesOf(std::span<const BoneContact> contacts, const auto& counts) {
@@ -72,6 +64,7 @@ struct Avoider::State {
         interference(own),
         space(own, chosen.bending),
         flow(own),
+        pace(own, space),
         sides(own, interference),
         pool(space, interference, sides),
         lastTubes(interference.restTubes().begin(), interference.restTubes().end()),
@@ -80,11 +73,7 @@ struct Avoider::State {
         lastPosed(own.points().begin(), own.points().end()),
         anewTubes(turns.size(), false),
         anewPoints(lastPosed.size(), false),
-        none(space.variableCount(), vec3(0)),
-        isEnd(lastPosed.size(), false),
         shape(lastPosed) {
-    for (const Vessel& vessel : network.vessels())
-      isEnd[vessel.firstPoint] = isEnd[vessel.firstPoint + vessel.pointCount - 1] = true;
     if (body) bones = std::make_unique<Bones>(*body, interference.restTubes());
     if (body && chosen.skinWall) wall = std::make_unique<SkinWall>(*body, interference.restTubes());
     correction = accepted = noCorrection();
@@ -101,8 +90,6 @@ struct Avoider::State {
   void pose(const PosedVessels& posed);
   Correction noCorrection() const;
   void comeAlong(const Input& in);
-  void keepPace(const Input& in);
-  vec3 onCurve(std::span<const vec4> points, std::size_t point) const;
   LastShape lastShape(const Input& in) const { return {lastTubes, turns, in.posed.rotations, anewTubes}; }
   bool isTooLong(const Input& in) const;
   void place(const Input& in);
@@ -130,6 +117,7 @@ struct Avoider::State {
   Interference interference;
   MotionSpace space;
   CorrectionFlow flow;
+  Pace pace;
   std::unique_ptr<Bones> bones;
   std::unique_ptr<SkinWall> wall;
   RestSides sides;
@@ -139,12 +127,8 @@ struct Avoider::State {
   std::vector<Bezier> lastTubes;    // of the last admissible shape
   std::vector<quat> lastRotations, turns;
   std::vector<vec4> lastPosed;
-  NearbySteps posedSteps{kNear};
-  bool posedStepsAreSet = false;            // for this pose
   std::vector<char> anewTubes, anewPoints;  // of vessels that start from the pose alone ...
-  bool mayJump = false;                     // ... and keep no pace
-  std::vector<vec3> none;                   // no correction
-  std::vector<char> isEnd;                  // of a vessel, a point each
+  std::span<const char> unpaced;            // ... of points that may jump, or none
   std::vector<vec4> shape;                  // being made
   // What single functions work in, kept so that a step allocates nothing.
   std::vector<BoneContact> entered;
@@ -170,7 +154,6 @@ struct Avoider::State {
 void Avoider::State::pose(const PosedVessels& posed) {
   if (bones) bones->pose(posed.jointMatrices);
   if (wall) wall->pose(posed.jointMatrices);
-  posedStepsAreSet = false;
   for (std::uint32_t tube = 0; tube < turns.size(); ++tube) {
     const auto [vessel, span] = interference.layout().address(tube);
     const std::uint32_t point = network.vessel(vessel).firstPoint + span + 1;
@@ -187,28 +170,6 @@ void Avoider::State::comeAlong(const Input& in) {
   correction = accepted;
   flow.fade(in.seconds, correction);
   flow.carry(lastRotations, in.posed.rotations, correction.motions);
-}
-
-// The curve's own place next to a de Boor point, which swings about more than that.
-vec3 Avoider::State::onCurve(std::span<const vec4> points, std::size_t point) const {
-  if (isEnd[point]) return vec3(points[point]);
-  return (vec3(points[point - 1]) + 4.0f * vec3(points[point]) + vec3(points[point + 1])) / 6.0f;
-}
-
-// Nothing is moved aside faster than what is about it moves, or a slow pace: no jump, whatever asks for one.
-void Avoider::State::keepPace(const Input& in) {
-  const float slow = kPace * in.seconds;
-  if (!std::exchange(posedStepsAreSet, true))
-    posedSteps.set(slow, lastPosed.size(), [&](std::size_t k) {
-      const vec3 place = onCurve(in.posed.points, k);
-      return std::pair(place, glm::distance(place, onCurve(lastPosed, k)));
-    });
-  space.keepNear(accepted.motions, correction.motions, slow, [&](std::uint32_t point, float distance) {
-    if (mayJump && anewPoints[point]) return distance;
-    return kPaceShare * posedSteps.longest(vec3(in.posed.points[point]), distance / kPaceShare);
-  });
-  space.keepNear(none, correction.motions, kFarthestAside,
-                 [](std::uint32_t, float) { return kFarthestAside; });
 }
 
 // The shape that belongs to a correction.
@@ -267,7 +228,7 @@ void Avoider::State::separate(const Input& in) {
       ++in.report.rounds;
       // In the last rounds the least lack counts.
       pool.ascend(options.sweeps, round + 2 < options.rounds ? kStill : 0, correction.motions);
-      keepPace(in);
+      pace.keep(accepted.motions, correction.motions, unpaced);
       place(in);
     }
     look(in, in.points, Look::again);
@@ -348,12 +309,12 @@ void Avoider::State::solveAnew(const Input& in, bool isLast, float reach) {
   const Correction tried = correction;
   const Trouble before = trouble();
   chooseAnew(in.points, reach);
-  mayJump = !remaining.empty() && reach > kHere;
+  unpaced = !remaining.empty() && reach > kHere ? std::span<const char>(anewPoints) : std::span<const char>();
   comeAlong(in);
   for (std::size_t p = 0; p < anewPoints.size(); ++p) {
     if (!anewPoints[p]) continue;
     correction.motions[p] = vec3(0);
-    if (!isEnd[p]) correction.widest[p] = kNoLimit;  // an end's ring belongs to others, too
+    if (!pace.isEnd(p)) correction.widest[p] = kNoLimit;  // an end's ring belongs to others, too
   }
   pool.clear();
   place(in);
@@ -466,6 +427,7 @@ std::optional<AvoidReport> Avoider::step(const PosedVessels& posed, const Volume
   const State::Input in{posed, volume, state.shape, report, stride.seconds};
   state.pool.clear();
   state.pose(posed);
+  state.pace.begin(state.lastPosed, posed.points, stride.seconds);
   {
     StageClock clock(report.solveMs);
     state.comeAlong(in);
@@ -481,7 +443,7 @@ std::optional<AvoidReport> Avoider::step(const PosedVessels& posed, const Volume
   if (!stride.atAnyLength && state.halvesMayHelp()) return refuse();
   state.giveWay(in, stride.isLast);
   if (state.isInTrouble()) state.solveAnew(in, stride.isLast, kHere);
-  if (state.isInTrouble()) state.solveAnew(in, stride.isLast, kNear);
+  if (state.isInTrouble()) state.solveAnew(in, stride.isLast, kNearPace);
   if (!state.remaining.empty()) state.solveAnew(in, stride.isLast, kNoLimit);
   report.addTimes(std::exchange(state.refused, {}));
   state.accept(posed);

@@ -1,17 +1,24 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "avoid/certificate.h"
 #include "avoid/correction.h"
 #include "avoid/lumen.h"
-#include "avoid/posed_vessels.h"
 #include "body/body.h"
 #include "body/volume.h"
 #include "solids/bones.h"
 
 namespace vasa {
+
+/// Before the correction: where everything was, at rest and in the pose.
+struct PosedVessels {
+  std::span<const vec4> points;     ///< as Network::points(), in the pose
+  std::span<const quat> rotations;  ///< how each point's surroundings turned since rest (Deformer::rotations)
+  std::span<const mat4> jointMatrices = {};  ///< a joint's world · inverseBind; may be empty without bones
+};
 
 /// Fixed budgets: no step takes more than these.
 struct AvoidOptions {
