@@ -52,6 +52,14 @@ std::vector<Link> linksOf(const Skeleton& skeleton, const BoundSkin& skin,
   return links;
 }
 
+// As those of a skin without matrices, whose vertices are stored beside their joints: no pose of a body.
+bool inOnePlace(const std::vector<Link>& links) {
+  float bound = 0, posed = 0;
+  for (const Link& link : links)
+    bound = std::max(bound, glm::length(link.bound)), posed = std::max(posed, glm::length(link.posed));
+  return posed > 0 && !(bound > 1e-6f * posed);
+}
+
 float likeness(const std::vector<Link>& links, const mat3& turn) {
   float sum = 0, weight = 1e-12f;
   for (const Link& link : links) {
@@ -61,17 +69,34 @@ float likeness(const std::vector<Link>& links, const mat3& turn) {
   return sum / weight;
 }
 
-// The first of the world, the nodes above and their turns by right angles that is likely enough, else the
-// likeliest.
-mat4 spaceOf(const Skeleton& skeleton, const std::vector<Link>& links) {
-  const mat4& above = skeleton.rootTransform;
+// Poses turn and move joints, but leave them their size: half of the joints are right.
+float unitOfPacked(const Skeleton& skeleton, const BoundSkin& skin) {
+  std::vector<float> units;
+  for (std::size_t i = 0; i < skin.joints.size(); ++i)
+    units.push_back(std::cbrt(std::abs(
+        glm::determinant(mat3(skeleton.joints[skin.joints[i].value].restWorld * skin.inverseBinds[i])))));
+  const auto middle = units.begin() + std::ptrdiff_t(units.size() / 2);
+  std::ranges::nth_element(units, middle);
+  return *middle;
+}
+
+// The unit is the world's or the nodes', whichever is nearer; poses stretch links, but do not double them.
+float unitOf(const Skeleton& skeleton, const std::vector<Link>& links) {
   float bound = 0, posed = 0;
   for (const Link& link : links) bound += glm::length(link.bound), posed += glm::length(link.posed);
-  // The unit is the world's or the nodes', whichever is nearer; poses stretch links, but do not double them.
-  const float measured = bound > 0 ? posed / bound : 1.0f, ofNodes = glm::length(vec3(above[0]));
+  const float measured = bound > 0 ? posed / bound : 1.0f;
+  const float ofNodes = glm::length(vec3(skeleton.rootTransform[0]));
   const auto off = [&](float unit) { return std::abs(std::log(measured / unit)); };
-  float scale = ofNodes > 0 && off(ofNodes) < off(1) ? ofNodes : 1.0f;
-  if (off(scale) > kAnotherUnit) scale = measured;
+  const float scale = ofNodes > 0 && off(ofNodes) < off(1) ? ofNodes : 1.0f;
+  return off(scale) > kAnotherUnit ? measured : scale;
+}
+
+// The first of the world, the nodes above and their turns by right angles that is likely enough, else the
+// likeliest.
+mat4 spaceOf(const Skeleton& skeleton, const BoundSkin& skin, const std::vector<std::optional<mat4>>& bound,
+             const std::vector<Link>& links) {
+  const mat4& above = skeleton.rootTransform;
+  const float scale = skin.packed ? unitOfPacked(skeleton, skin) : unitOf(skeleton, links);
   const mat3 nodes = sound(above) ? glm::mat3_cast(rotationOf(above)) : mat3(1);
   const bool inNodes = likeness(links, nodes) > likeness(links, mat3(1)) + 1e-3f;
   mat3 turn = inNodes ? nodes : mat3(1);
@@ -86,6 +111,9 @@ mat4 spaceOf(const Skeleton& skeleton, const std::vector<Link>& links) {
         }
   mat4 space(scale * turn);
   space[3] = vec4(inNodes ? vec3(above[3]) : vec3(0), 1);
+  if (!skin.packed) return space;
+  const JointId topmost = *std::ranges::min_element(skin.joints, {}, &JointId::value);  // parents come first
+  space[3] += skeleton.joints[topmost.value].restWorld[3] - space * (*bound[topmost.value])[3];
   return space;
 }
 
@@ -119,7 +147,9 @@ bool restAtBinding(Skeleton& skeleton, const std::vector<BoundSkin>& skins) {
     if (!sound(largest->inverseBinds[i])) return false;
     bound[largest->joints[i].value] = glm::inverse(largest->inverseBinds[i]);
   }
-  const mat4 space = spaceOf(skeleton, linksOf(skeleton, *largest, bound));
+  const std::vector<Link> links = linksOf(skeleton, *largest, bound);
+  if (inOnePlace(links)) return false;
+  const mat4 space = spaceOf(skeleton, *largest, bound, links);
   Skeleton moved = skeleton;
   for (std::size_t j = 0; j < moved.joints.size(); ++j) {
     Skeleton::Joint& joint = moved.joints[j];

@@ -9,6 +9,9 @@ namespace vasa::gltf {
 struct BoundSkin {
   std::vector<JointId> joints;
   std::vector<mat4> inverseBinds;  ///< one a joint
+  /// Its vertices are stored as integers (KHR_mesh_quantization): the matrices also bring them to their size
+  /// and place, which the file tells of nowhere else.
+  bool packed = false;
 };
 
 /// The largest between elements of two matrices.
@@ -19,9 +22,11 @@ float difference(const mat4& a, const mat4& b);
 ///
 /// What space the inverse bind matrices are in is not told by the file: of the world and the space of the
 /// nodes above the joints, upright or turned by right angles, the one in which the links point most as they
-/// do in the nodes' pose, in the unit in which they are as long.
+/// do in the nodes' pose, in the unit in which they are as long. That of packed vertices is their own: its
+/// unit is what the matrices have to that of the nodes, and its place is such that the skin's topmost joint
+/// stays where the nodes have it.
 /// @return whether anything moved. False where the skin is bound in the nodes' pose already, up to one
-/// transform, and where the matrices are none of joints (with shear, or not invertible)
+/// transform, and where the matrices are none of joints (with shear, not invertible, or all in one place)
 bool restAtBinding(Skeleton& skeleton, const std::vector<BoundSkin>& skins);
 
 }  // namespace vasa::gltf

@@ -135,6 +135,28 @@ float likelyUnitOf(const Asset& asset, const Skeleton& skeleton) {
   return 1;
 }
 
+// What the file leaves open of where the body is at rest, and what of it is not seen.
+void tellWhatIsOpen(const Asset& asset, const BodySkeleton& joints, const Body& body) {
+  const auto& model = asset.model;
+  if (std::ranges::any_of(model.skins, [](const Model::Skin& skin) {
+        return skin.inverseBindMatrices < 0 && skin.joints.size() > 1;
+      }))
+    logWarning(asset.name +
+               ": a skin has no inverse bind matrices: rest is the pose that the file was saved in, and "
+               "vertices are taken to lie beside their joints; export the body with its binding");
+  if (joints.packedAndPosed)
+    logInfo(
+        asset.name +
+        ": its vertices are packed (KHR_mesh_quantization), and it was saved in a pose: where it stood is "
+        "not told, so that it rests where its topmost joint stands in that pose");
+  const bool hasMesh =
+      std::ranges::any_of(model.nodes, [](const Model::Node& node) { return node.mesh >= 0; });
+  if (hasMesh && body.meshes.empty())
+    logWarning(asset.name +
+               ": none of its meshes can be shown: they have no triangles, or are no part of the scene that "
+               "the file opens with; the body is its skeleton alone");
+}
+
 }  // namespace
 
 void checkExpandedSize(const Asset& asset, const NodeTree& tree, std::size_t vertexBytes) {
@@ -217,6 +239,7 @@ Body bodyOf(const Asset& asset) {
     if (!std::isfinite(glm::dot(joint.restWorld[3], vec4(1)) + glm::determinant(mat3(joint.restWorld))))
       breaks("/nodes", "the transform of joint \"" + joint.name + "\" leaves the range of numbers",
              kExportAgain);
+  tellWhatIsOpen(asset, joints, body);
   recogniseSkin(body);
   return body;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 #include "io/gltf_accessor.h"
@@ -119,6 +120,19 @@ std::vector<mat4> inverseBinds(const Asset& asset, const Model::Skin& skin) {
   return out;
 }
 
+// One a skin: whether a mesh that it moves has integers for positions.
+std::vector<bool> packedSkins(const Model& model) {
+  std::vector<bool> packed(model.skins.size());
+  for (const auto& node : model.nodes) {
+    if (node.skin < 0 || node.mesh < 0) continue;
+    for (const auto& primitive : model.meshes[std::size_t(node.mesh)].primitives)
+      if (primitive.position >= 0 &&
+          !isFloatComponent(model.accessors[std::size_t(primitive.position)].componentType))
+        packed[std::size_t(node.skin)] = true;
+  }
+  return packed;
+}
+
 // Influences number joints in 16 bits.
 void checkJointCount(std::size_t count) {
   if (count > 65535) breaks("/skins", "need more than 65535 joints", "use fewer joints");
@@ -223,19 +237,22 @@ BodySkeleton buildSkeleton(const Asset& asset, const NodeTree& tree) {
     skeleton.joints.push_back(std::move(joint));
   }
   checkJointCount(skeleton.joints.size());
+  const std::vector<bool> packed = packedSkins(model);
   std::vector<BoundSkin> bound;
   for (const auto& skin : model.skins) {
-    bound.push_back({{}, inverseBinds(asset, skin)});
+    bound.push_back({{}, inverseBinds(asset, skin), packed[bound.size()]});
     for (const int node : skin.joints) bound.back().joints.push_back(out.jointOfNode[std::size_t(node)]);
   }
   const Skeleton asFile = skeleton;
-  if (restAtBinding(skeleton, bound))
+  if (restAtBinding(skeleton, bound)) {
+    out.packedAndPosed = std::ranges::any_of(packed, std::identity());
     for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
       const mat4& before = asFile.joints[j].restWorld;
       out.fileRest.push_back(asFile.joints[j].rest);
       out.fileToRest.push_back(invertible(before) ? skeleton.joints[j].restWorld * glm::inverse(before)
                                                   : mat4(1));
     }
+  }
   Binder binder(skeleton);
   for (BoundSkin& skin : bound) out.skins.push_back(binder.bind(std::move(skin.joints), skin.inverseBinds));
   binder.bindTheRest();

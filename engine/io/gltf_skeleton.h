@@ -21,6 +21,8 @@ struct BodySkeleton {
   /// a joint from there to rest. Empty where both are the same.
   std::vector<JointTransform> fileRest;
   std::vector<mat4> fileToRest;
+  /// Likewise, and the place at rest is the topmost joint's in the file's pose (io/gltf_binding.h).
+  bool packedAndPosed = false;
 };
 
 /// Joints are the joints of all skins, and besides them every node that moves one of them or a mesh and

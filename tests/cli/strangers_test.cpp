@@ -9,6 +9,7 @@
 #include "core/atomic_file.h"
 #include "io/bvh.h"
 #include "io/gltf.h"
+#include "io/gltf_builder.h"
 #include "io/swc.h"
 #include "network/file.h"
 #include "support/shared_data.h"
@@ -469,4 +470,32 @@ TEST_CASE("rest is the pose that a skin is bound in, for fit as for what it is g
     CHECK(glm::distance(vec3(before->points()[i]), vec3(after->points()[i])) < 0.002f);
   CHECK(after->bodyHeight() == doctest::Approx(1.75f).epsilon(0.02));
   CHECK(runProgram({"check", "--body", jumps, "--network", out, "--frames", "0"}).exit == 0);
+}
+
+TEST_CASE(
+    "what a body's file leaves open is told: no binding, packed in a pose, a scene without its meshes") {
+  const TemporaryFolder folder;
+  const auto said = [&](const GltfBuilder& file) {
+    GltfBuilder written = file;
+    const auto outcome = runProgram({"info", write(folder, "odd.glb", written.glb())});
+    CHECK(outcome.exit == 0);
+    return outcome.err;
+  };
+  CHECK(said(bodyFile()) == "");
+  GltfBuilder unbound = bodyFile();
+  unbound.document["skins"][0].erase("inverseBindMatrices");
+  CHECK(said(unbound).find("warning: odd.glb: a skin has no inverse bind matrices") == 0);
+  GltfBuilder elsewhere = bodyFile();
+  elsewhere.document["scenes"] = {{{"nodes", {0}}}, {{"nodes", {0, 2}}}};
+  CHECK(said(elsewhere).find("warning: odd.glb: none of its meshes can be shown") == 0);
+  elsewhere.document["scene"] = 1;
+  CHECK(said(elsewhere) == "");
+  GltfBuilder packed = bodyFile();
+  const int positions = packed.accessor<std::int16_t>({0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 0, 0}, "VEC3", 5122, 3);
+  packed.document["bufferViews"].back()["byteStride"] = 8;
+  packed.document["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = positions;
+  packed.document["extensionsUsed"] = {"KHR_mesh_quantization"};
+  CHECK(said(packed) == "");
+  packed.document["nodes"][1]["rotation"] = {0, 0, 0.6, 0.8};
+  CHECK(said(packed).find("odd.glb: its vertices are packed") == 0);
 }

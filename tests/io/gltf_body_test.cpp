@@ -207,6 +207,61 @@ TEST_CASE(
   CHECK(near(posed(body, body.meshes[0], samplePose(body.skeleton, body.clips[0], 0))[1], {1, 1.3f, 0}));
 }
 
+TEST_CASE(
+    "packed vertices of a file saved in a pose have their own size, and the hip where the nodes have it") {
+  GltfBuilder file = bodyFile();
+  // Stored are (p - (0.5, 0.5, 0)) / 0.8 as shares of 32767, each with a number that only fills a word.
+  const int positions = file.accessor<std::int16_t>(
+      {-20479, 20479, 0, 0, 20479, 20479, 0, 0, -20479, -20479, 0, 0}, "VEC3", 5122, 3);
+  file.document["accessors"][positions]["normalized"] = true;
+  file.document["bufferViews"][file.document["accessors"][positions]["bufferView"].get<int>()]["byteStride"] =
+      8;
+  file.document["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = positions;
+  std::vector<float> binds;
+  for (const float height : {1.0f, 0.5f})
+    for (const float number :
+         {0.8f, 0.f, 0.f, 0.f, 0.f, 0.8f, 0.f, 0.f, 0.f, 0.f, 0.8f, 0.f, 0.5f, 0.5f - height, 0.f, 1.f})
+      binds.push_back(number);
+  file.document["skins"][0]["inverseBindMatrices"] = file.floats(binds, "MAT4");
+  file.document["extensionsUsed"] = {"KHR_mesh_quantization"};
+  const auto isAtRest = [](const Body& body) {
+    const std::vector<vec3> unpacked{{0, 1, 0}, {1, 1, 0}, {0, 0, 0}}, found = atRest(body);
+    REQUIRE(found.size() == unpacked.size());
+    for (std::size_t i = 0; i < found.size(); ++i) CHECK(glm::distance(found[i], unpacked[i]) < 1e-4f);
+    CHECK(near(vec3(body.skeleton.joints[0].restWorld[3]), {0, 1, 0}));
+    CHECK(near(vec3(body.skeleton.joints[1].restWorld[3]), {0, 0.5f, 0}));
+    CHECK(body.height() == doctest::Approx(1).epsilon(1e-3));
+  };
+  isAtRest(bodyOf(file));
+  file.document["nodes"][1]["rotation"] = {0, 0, 0.6, 0.8};
+  const LogLevel before = logLevel();
+  setLogLevel(LogLevel::quiet);
+  const Body posedFile = bodyOf(file);
+  setLogLevel(before);
+  isAtRest(posedFile);
+  const auto bent =
+      posed(posedFile, posedFile.meshes[0], samplePose(posedFile.skeleton, posedFile.clips[0], 0.2f));
+  CHECK(glm::distance(bent[2], vec3(0.5f, 0.5f, 0)) < 1e-4f);
+}
+
+TEST_CASE(
+    "vertices of a skin without inverse bind matrices lie beside their joints, which stay where they are") {
+  GltfBuilder file = bodyFile();
+  file.document["skins"][0].erase("inverseBindMatrices");
+  file.document["meshes"][0]["primitives"][0]["attributes"]["POSITION"] =
+      file.floats({0, 0, 0, 1, 0, 0, 0, -0.5f, 0}, "VEC3");
+  const LogLevel before = logLevel();
+  setLogLevel(LogLevel::quiet);
+  const Body body = bodyOf(file);
+  setLogLevel(before);
+  CHECK(near(vec3(body.skeleton.joints[0].restWorld[3]), {0, 1, 0}));
+  CHECK(near(vec3(body.skeleton.joints[1].restWorld[3]), {0, 0.5f, 0}));
+  CHECK(near(atRest(body)[1], {1, 1, 0}));
+  CHECK(near(atRest(body)[2], {0, 0, 0}));
+  CHECK(
+      near(posed(body, body.meshes[0], samplePose(body.skeleton, body.clips[0], 0.2f))[2], {0.5f, 0.5f, 0}));
+}
+
 TEST_CASE("a mesh without a skin follows the joint it hangs on; one that hangs on nothing is left out") {
   const LogLevel before = logLevel();
   setLogLevel(LogLevel::quiet);
