@@ -191,6 +191,18 @@ void tellUnknownKinds(const Network& network) {
         count, network.vessels().size()));
 }
 
+// What went wrong is told element by element all the same.
+Result<void> refuseFailed(const Globals& globals, const ConvertReport& report) {
+  if (auto told = globals.json ? printJson(convertJson(report, {})) : printText(convertText(report, {}));
+      !told)
+    return told.error();
+  const ElementReport& first = report.elements.front();
+  return badInput(fmt::format(
+      "nothing is written: {} ('{}': {}); mend the surface (its pieces, its unit), or give centre lines",
+      report.elements.size() == 1 ? "the one element failed" : "all elements failed", first.name,
+      first.reason));
+}
+
 Result<void> run(const Globals& globals, const Options& options) {
   if (auto writable = checkNetworkOutput(options.output); !writable) return writable.error();
   const auto start = std::chrono::steady_clock::now();
@@ -212,6 +224,8 @@ Result<void> run(const Globals& globals, const Options& options) {
   auto conversion = lines ? convertCentrelines(options) : convertElements(*sources, settings);
   if (!conversion) return conversion.error();
   if (options.kind.empty()) tellUnknownKinds(conversion->network);
+  const ConvertSummary& summary = conversion->report.summary;
+  if (summary.failed == summary.elements) return refuseFailed(globals, conversion->report);
   if (lines) repair = overlapsAtRest(conversion->network);  // told with their radii: nothing is done about it
   const bool quantised = isQuantised(options, settings, conversion->network);
   std::optional<PatchReport> patches;

@@ -125,6 +125,7 @@ std::string convertText(const ConvertReport& report, const ConvertOutput& output
   if (s.meshBytes > 0) text += fmt::format("{:<22} {:.1f} % of the surface\n", "coverage", 100 * s.coverage);
   text += errorText(s.meshBytes > 0 ? "mesh to sweeps" : "samples to sweeps", s.error);
   if (s.backError.measured) text += errorText("sweeps to mesh", s.backError);
+  if (output.file.empty()) return text;
   text += fmt::format(
       "{:<22} {}: {} bytes{}{}\n", "written", visible(output.file), output.bytes,
       s.meshBytes > 0 && output.bytes > 0

@@ -7,7 +7,7 @@ namespace vasa::cli {
 
 /// What became of the written file.
 struct ConvertOutput {
-  std::string file;
+  std::string file;  ///< empty: none was written
   std::size_t bytes = 0;
   bool quantised = false;
   float quantisationError = 0;  ///< [m] largest move of a point

@@ -37,6 +37,11 @@ float heightOf(std::span<const SourceElement> elements) {
   return extent.y > 0 ? extent.y : std::max(extent.x, extent.z);
 }
 
+std::string millimetresText(float metres) {
+  const std::string text = std::to_string(1000 * metres);
+  return text.substr(0, text.find('.') + 2);
+}
+
 // With every hollow wall by its lumen alone; empty where there is none.
 std::vector<SourceElement> byLumen(std::span<const SourceElement> elements, float weldTolerance) {
   std::vector<std::optional<TriangleMesh>> lumina(elements.size());
@@ -117,7 +122,9 @@ Result<Conversion> convertElements(std::span<const SourceElement> given, const C
   auto assembly = assembleNetwork(std::move(graph), elements, options.fit, bodyHeight);
   if (!assembly)
     return badInput("the vessels that were found make no network (" + assembly.error().message +
-                    "); if surfaces are torn or run through themselves, mend them, or give centre lines");
+                    "); if they are not " + millimetresText(bodyHeight) +
+                    " mm tall, give their unit (--unit, --scale); if surfaces are torn or run through "
+                    "themselves, mend them, or give centre lines");
   if (options.mend) {
     auto mended = options.mend(assembly->network);
     if (!mended) return mended.error();

@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -171,6 +172,30 @@ TEST_CASE("convert tells what is wrong and leaves no file") {
   expect({"convert", mesh, "-o", out, "--scale", "-1"}, 2, "--scale");
   expect({"convert", mesh, "-o", out, "--exact", "--quantise"}, 2, "--quantise");
   expect({"convert", mesh, "-o", folder.path("no/such/folder.vasa")}, 6, "folder");
+}
+
+TEST_CASE("where all elements failed nothing is written, and each is told") {
+  const Folder folder;
+  std::string text = tubesObj({{"torn", 0}});
+  for (int i = 0; i < 300; ++i) {  // splinters, far apart
+    const auto at = [&](double x, double y) {
+      text += fmt::format("v {} {} 0\n", 0.1 + 0.05 * (i % 20) + x, 0.05 * double(i / 20) + y);
+    };
+    at(0, 0), at(0.02, 0), at(0, 0.02);
+    text += "f -3 -2 -1\n";
+  }
+  const auto mesh = folder.write("torn.obj", text), out = folder.path("out.vasa");
+  const auto outcome = runProgram({"convert", mesh, "-o", out, "--json"});
+  CHECK(outcome.exit == 3);
+  CHECK(contains(outcome.err, "error: nothing is written: the one element failed ('torn': "));
+  CHECK(outcome.json()["elements"][0]["status"] == "failed");
+  CHECK(!std::filesystem::exists(out));
+  CHECK(!contains(runProgram({"convert", mesh, "-o", out}).out, "written"));
+  // Beside one that did not fail it is as before.
+  const auto both =
+      runProgram({"convert", mesh, folder.write("tube.obj", tubesObj({{"tube", -0.1f}})), "-o", out});
+  CHECK(both.exit == 0);
+  CHECK(contains(both.out, "1 failed"));
 }
 
 TEST_CASE("names from files steer no terminal and forge no line, on standard output and error") {
