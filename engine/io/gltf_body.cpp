@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "body/clip_reach.h"
 #include "body/skin_recognition.h"
 #include "core/log.h"
 #include "io/gltf_clips.h"
@@ -135,6 +136,18 @@ float likelyUnitOf(const Asset& asset, const Skeleton& skeleton) {
   return 1;
 }
 
+void leaveOutStrays(std::vector<Clip>& clips, const Skeleton& skeleton, const std::string& file) {
+  std::erase_if(clips, [&](const Clip& clip) {
+    const bool strays = !staysNear(skeleton, clip);
+    if (strays)
+      logWarning(
+          file + ": the clip \"" + clip.name +
+          "\" takes joints farther than a kilometre from the body, and is left out; check the unit of its "
+          "keys");
+    return strays;
+  });
+}
+
 // What the file leaves open of where the body is at rest, and what of it is not seen.
 void tellWhatIsOpen(const Asset& asset, const BodySkeleton& joints, const Body& body) {
   const auto& model = asset.model;
@@ -145,10 +158,11 @@ void tellWhatIsOpen(const Asset& asset, const BodySkeleton& joints, const Body& 
                ": a skin has no inverse bind matrices: rest is the pose that the file was saved in, and "
                "vertices are taken to lie beside their joints; export the body with its binding");
   if (joints.packedAndPosed)
-    logInfo(
+    logWarning(
         asset.name +
-        ": its vertices are packed (KHR_mesh_quantization), and it was saved in a pose: where it stood is "
-        "not told, so that it rests where its topmost joint stands in that pose");
+        ": its vertices are packed (KHR_mesh_quantization) and it was saved in a pose, so that where it stood "
+        "is not told: it rests where its topmost joint stands in that pose, which may lie centimetres or "
+        "metres beside its vessels; pack it at rest, or with floats for positions (gltfpack -vpf)");
   const bool hasMesh =
       std::ranges::any_of(model.nodes, [](const Model::Node& node) { return node.mesh >= 0; });
   if (hasMesh && body.meshes.empty())
@@ -234,6 +248,7 @@ Body bodyOf(const Asset& asset) {
       addMeshesOfNode(from, node, body.meshes);
   body.clips = readClips(asset, joints.jointOfNode);
   if (!joints.fileRest.empty()) holdFilePose(body.clips, joints.skeleton, joints.fileRest);
+  leaveOutStrays(body.clips, joints.skeleton, body.name);
   body.skeleton = std::move(joints.skeleton);
   for (const auto& joint : body.skeleton.joints)
     if (!std::isfinite(glm::dot(joint.restWorld[3], vec4(1)) + glm::determinant(mat3(joint.restWorld))))

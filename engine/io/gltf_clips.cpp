@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "core/log.h"
 #include "io/gltf_accessor.h"
 #include "io/gltf_rule.h"
 
@@ -136,10 +137,14 @@ std::vector<Clip> readClips(const Asset& asset, const std::vector<JointId>& join
   checkKeyCount(asset.model, asset.bytes);
   std::vector<Clip> clips;
   ClipNames names;
+  std::vector<std::string> moveNone;
   for (std::size_t i = 0; i < asset.model.animations.size(); ++i) {
     Clip clip = readClip(asset, asset.model.animations[i], jointOfNode);
     if (clip.name.empty()) clip.name = "animation " + std::to_string(i);
-    if (!(clip.end >= clip.start)) continue;
+    if (!(clip.end >= clip.start)) {
+      moveNone.push_back(clip.name);
+      continue;
+    }
     const double frames = (double(clip.end) - clip.start) * clip.framesPerSecond;
     if (!(frames <= kMaximumFrames))
       breaks("/animations/" + std::to_string(i),
@@ -149,6 +154,12 @@ std::vector<Clip> readClips(const Asset& asset, const std::vector<JointId>& join
     clip.name = names.unique(clip.name);
     clips.push_back(std::move(clip));
   }
+  if (!moveNone.empty())
+    logInfo(
+        asset.name + ": " + std::to_string(moveNone.size()) + " of " +
+        std::to_string(asset.model.animations.size()) +
+        " animations move no joint (but morph targets, cameras, or by an extension), and are left out: \"" +
+        moveNone.front() + "\" first");
   return clips;
 }
 

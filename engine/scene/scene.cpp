@@ -7,6 +7,7 @@
 
 #include "body/axial_bones.h"
 #include "body/belonging.h"
+#include "body/clip_reach.h"
 #include "body/retarget.h"
 #include "core/cancellation.h"
 #include "core/letters.h"
@@ -77,6 +78,10 @@ Result<void> addMotion(const SceneFile& file, Body& body) {
     logWarning(match);  // a map is taken at its word
   else
     logInfo(match);
+  if (!staysNear(body.skeleton, done->clip))
+    return badInput(
+        file.clip +
+        ": takes the body farther than a kilometre from where it rests; check the unit of its positions");
   body.clips.push_back(std::move(done->clip));
   return {};
 }

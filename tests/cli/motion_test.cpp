@@ -45,6 +45,9 @@ TEST_CASE("BVH files and joint maps that do not fit are refused") {
            "odd.bvh",
            "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 3 Xrotation Yrotation Zrotation\n}\nMOTION\nFrames: 1\nFrame Time: 1\n0 0 0\n")},
       3, "joints in common");
+  std::string far = motionText();
+  far.replace(far.rfind("0 15 0"), 6, "0 15 1e8");
+  expect({"--clip", write("far.bvh", far)}, 3, "far.bvh: takes the body farther than a kilometre");
 }
 
 TEST_CASE("vessels are held where a table says, which is refused where it names none") {

@@ -71,6 +71,31 @@ TEST_CASE("clips of one name can each be chosen") {
   CHECK(body.clips[2].name == body.clips[0].name + " 3");
 }
 
+TEST_CASE("a clip that takes the body out of all bounds is left out") {
+  const auto clipsWith = [](const char* path, const char* interpolation, const std::vector<float>& values) {
+    GltfBuilder file = bodyFile();
+    file.add("animations", {{"name", "stray"},
+                            {"samplers",
+                             {{{"input", file.floats({0, 1}, "SCALAR")},
+                               {"output", file.floats(values, "VEC3")},
+                               {"interpolation", interpolation}}}},
+                            {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", path}}}}}}});
+    const LogLevel before = logLevel();
+    setLogLevel(LogLevel::quiet);
+    const Body body = bodyOf(file);
+    setLogLevel(before);
+    CHECK(body.clips[0].name == "bend");
+    return body.clips.size();
+  };
+  CHECK(clipsWith("translation", "LINEAR", {0, 1, 0, 0, 900, 0}) == 2);
+  CHECK(clipsWith("translation", "LINEAR", {0, 1, 0, 0, 3e38f, 0}) == 1);
+  CHECK(clipsWith("translation", "STEP", {0, 1, 0, 1e6f, 1, 0}) == 1);
+  CHECK(clipsWith("translation", "CUBICSPLINE", {0, 0, 0, 0, 1, 0, 1e5f, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0}) ==
+        1);
+  CHECK(clipsWith("scale", "LINEAR", {1, 1, 1, 1, 3e38f, 1}) == 1);
+  CHECK(clipsWith("scale", "LINEAR", {1, 1, 1, 2, 2, 2}) == 2);
+}
+
 TEST_CASE("joints are ordered parents first, whatever order the file has") {
   GltfBuilder file = bodyFile();
   file.document["nodes"] = {{{"name", "knee"}, {"translation", {0, -0.5, 0}}},
