@@ -50,10 +50,22 @@ Session::Session(const ViewOptions& options, const Settings& settings, Window& w
 }
 
 Result<ViewReport> Session::run() {
+  if (const auto fits = checkRecord(); !fits) return fits.error();
   const auto done = gpu::attempt([&] { return go(); });
   if (!done) return keepWhatIsThere(done.error());
   if (!*done) return keepWhatIsThere(done->error());
   return *done;
+}
+
+// Told now, not once there is a session to lose. What is no file (/dev/full, a pipe) shows at the end.
+Result<void> Session::checkRecord() const {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(options_.record, ignored);
+  if (options_.record.empty() ||
+      (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)))
+    return {};
+  const auto file = AtomicFile::create(options_.record);
+  return file ? Result<void>() : file.error();
 }
 
 Result<void> Session::keepScript() {
@@ -75,9 +87,10 @@ Error Session::keepWhatIsThere(Error error) {
   if (!document_) return error;
   if (const std::string told = keepUnsaved(); !told.empty()) error.message += "; " + told;
   const auto path = options_.record;
-  if (const auto kept = keepScript(); !kept)
-    error.message += "; " + kept.error().message;
-  else if (!path.empty())
+  if (const auto kept = keepScript(); !kept) {
+    if (error.message.find(kept.error().message) == std::string::npos)
+      error.message += "; " + kept.error().message;
+  } else if (!path.empty())
     error.message += "; the session until then is in " + path.string();
   if (recording_.running())
     if (const auto film = recording_.finish())

@@ -61,6 +61,7 @@ class Session {
 
  private:
   Result<ViewReport> go();
+  Result<void> checkRecord() const;
   Result<void> keepScript();
   std::string keepUnsaved();
   Error keepWhatIsThere(Error error);

@@ -443,6 +443,45 @@ TEST_CASE("what is wrong is told before a window opens, or by its closing") {
   const auto missing =
       runProgram({"view", "--body", "none.glb", "--network", "none.vasa"}, on(display, folder));
   CHECK(missing.exit == 6);
+  const auto recorded = [&](const std::string& file) {
+    const auto script = scriptIn(folder.path(), "settle\nwindow OUT/late.png\n").string();
+    return runProgram({"view", "--size", "400x300", "--script", script, "--record-script", file},
+                      on(display, folder));
+  };
+  const std::string nowhere = (folder.path() / "none" / "session.txt").string();
+  const auto early = recorded(nowhere);
+  CHECK(early.exit == 6);
+  CHECK_MESSAGE(early.err.find("error: " + nowhere) == 0, early.err);
+  CHECK(!std::filesystem::exists(folder.path() / "late.png"));
+  const auto full = recorded("/dev/full");
+  CHECK(full.exit == 6);
+  CHECK_MESSAGE(full.err.find("/dev/full") == full.err.rfind("/dev/full"), full.err);
+}
+
+TEST_CASE("vessels may be named as they are beside a body or other vessels") {
+  const VirtualDisplay display;
+  const TemporaryFolder folder;
+  const auto lines = folder.path() / "lines.swc";
+  std::ofstream(lines) << "1 10 0 1 0 0.004 -1\n2 10 0 1.1 0 0.004 1\n";
+  const std::string save =
+      "settle\nhold control\nhold shift\nkey s\nlet shift\nlet control\nframes 3\ntype kept.json\nkey enter\nsettle\n";
+  const auto networksOf = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{
+        "view",  lines.string(),         "--size",   "400x300",
+        "--out", folder.path().string(), "--script", scriptIn(folder.path(), save)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    std::filesystem::remove(folder.path() / "kept.json");  // what is there is asked about
+    const auto outcome = runProgram(arguments, on(display, folder));
+    REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
+    return nlohmann::json::parse(contentOf(folder.path() / "kept.json"))["networks"].size();
+  };
+  CHECK(networksOf({"--body", humanBody().string()}) == 1);
+  CHECK(networksOf({"--network", humanVessels().string()}) == 2);
+  const auto twice =
+      runProgram({"view", humanBody().string(), "--body", humanBody().string(), "--network", "a.vasa"},
+                 on(display, folder));
+  CHECK(twice.exit == 2);
+  CHECK_MESSAGE(twice.err.find("--body gives another one") != std::string::npos, twice.err);
 }
 
 TEST_CASE("a session that a signal ends leaves what was not saved in a scene of its own") {
