@@ -110,7 +110,7 @@ Result<GrowthRegion> regionIn(Row row, const GrowthRules& rules) {
   const bool grows = region.system != GrowthRegion::kNoSystem;
   if (grows) region.bed = row.millimetres(7, 2, 1000);
   if (!region.organs.empty()) {
-    for (const std::size_t column : {2, 3, 4, 5, 6})
+    for (const std::size_t column : {2, 4, 5, 6})
       if (!row.text(column).empty())
         row.fail("names organs and " + std::string(kColumns[column]) +
                  "; an organ is filled whatever vessels are near, leave that empty");
@@ -139,18 +139,21 @@ std::string headerText(std::size_t columns = kColumns.size()) {
 }  // namespace
 
 const GrowthRegion* regionOf(const std::vector<GrowthRegion>& regions, const RegionQuestion& question) {
-  const std::string vessel = lowerCase(question.vessel), joint = lowerCase(question.joint),
-                    id = lowerCase(question.ontologyId);
+  const std::string joint = lowerCase(question.joint);
   for (const GrowthRegion& region : regions) {
     if (!region.organs.empty()) continue;
-    const bool named = region.vessels.empty() || holdsAny(region.vessels, vessel) ||
-                       std::find(region.vessels.begin(), region.vessels.end(), id) != region.vessels.end();
+    const bool named = namesVessel(region, question.vessel, question.ontologyId);
     const bool placed = region.joints.empty() || holdsAny(region.joints, joint);
     const bool kind = region.kinds.empty() || std::find(region.kinds.begin(), region.kinds.end(),
                                                         question.kind) != region.kinds.end();
     if (named && placed && kind) return &region;
   }
   return nullptr;
+}
+
+bool namesVessel(const GrowthRegion& region, std::string_view vessel, std::string_view ontologyId) {
+  return region.vessels.empty() || holdsAny(region.vessels, lowerCase(vessel)) ||
+         std::ranges::find(region.vessels, lowerCase(ontologyId)) != region.vessels.end();
 }
 
 const GrowthRegion* regionOfOrgan(const std::vector<GrowthRegion>& regions, std::string_view mesh) {

@@ -16,7 +16,8 @@ struct GrowthRegion {
   std::string name;
   std::uint32_t system = kNoSystem;
   std::vector<std::string> joints;   ///< parts of joints' names; empty: all
-  std::vector<std::string> vessels;  ///< parts of vessels' names, or whole ontology ids; empty: all
+  std::vector<std::string> vessels;  ///< parts of vessels' names, or whole ontology ids; empty: all.
+                                     ///< Of an organ: those that feed it
   std::vector<VesselKind> kinds;     ///< empty: all
   float thinnest = 0, thickest = 0;  ///< [m] radii of vessels that trees hang on
   float bed = 0;                     ///< [m] side of a cube as large as a bed
@@ -33,6 +34,10 @@ struct RegionQuestion {
 /// The first region whose joints, vessels and kinds fit, none that fills organs; nullptr if there is none.
 /// Upper and lower case are alike.
 const GrowthRegion* regionOf(const std::vector<GrowthRegion>& regions, const RegionQuestion& question);
+
+/// Whether the region's vessels are these, by a part of the name or the whole id; of an organ, whether the
+/// vessel is its own.
+bool namesVessel(const GrowthRegion& region, std::string_view vessel, std::string_view ontologyId);
 
 /// The first region that fills the organ of a mesh; nullptr if there is none.
 const GrowthRegion* regionOfOrgan(const std::vector<GrowthRegion>& regions, std::string_view mesh);

@@ -83,6 +83,39 @@ Organs organsOf(const Body& body, const std::vector<GrowthRegion>& regions, floa
   return organs;
 }
 
+// Which organs each vessel feeds: one a vessel and room.
+std::vector<char> feedsOf(const Network& network, const std::vector<GrowthRegion>& regions,
+                          const Organs& organs) {
+  std::vector<char> feeds;
+  for (const Vessel& vessel : network.vessels())
+    for (const std::uint8_t region : organs.regions)
+      feeds.push_back(region == 255 || namesVessel(regions[region], vessel.name, vessel.ontologyId));
+  return feeds;
+}
+
+// Within an organ that has vessels of its own nothing hangs on those that only run through it.
+void leaveOutPassing(const std::vector<char>& feeds, const Tissue& tissue, BedWish& wish) {
+  const std::size_t rooms = wish.regionOfRoom.size();
+  for (std::vector<BedSource>& sources : wish.sources) {
+    const auto roomOf = [&](const BedSource& source) {
+      const std::int32_t cube = tissue.numberAt(source.at);
+      const std::uint8_t room = cube < 0 ? Tissue::kCommon : tissue.rooms[std::size_t(cube)];
+      return room == Tissue::kHollow ? Tissue::kCommon : room;
+    };
+    const auto isOwn = [&](const BedSource& source, std::size_t room) {
+      return feeds[wish.spans[source.span].vessel * rooms + room - 1] != 0;
+    };
+    std::vector<char> hasOwn(rooms + 1, 0);
+    for (const BedSource& source : sources)
+      if (const std::size_t room = roomOf(source); room != Tissue::kCommon && isOwn(source, room))
+        hasOwn[room] = 1;
+    std::erase_if(sources, [&](const BedSource& source) {
+      const std::size_t room = roomOf(source);
+      return hasOwn[room] && !isOwn(source, room);
+    });
+  }
+}
+
 std::vector<vec3> placesOf(std::span<const vec4> points) {
   std::vector<vec3> places;
   for (const vec4& p : points) places.emplace_back(p);
@@ -91,7 +124,8 @@ std::vector<vec3> placesOf(std::span<const vec4> points) {
 
 // All that beds depend on.
 std::uint64_t keyOf(const Body& body, const GrowthRules& rules, const std::vector<GrowthRegion>& regions,
-                    const Organs& organs, const BedWish& wish, const std::vector<Looked>& looked) {
+                    const Organs& organs, std::span<const char> feeds, const BedWish& wish,
+                    const std::vector<Looked>& looked) {
   std::uint64_t key = hashOf(std::span(&rules.tables, 1));
   for (const GrowthRegion& region : regions) {
     const std::array<float, 3> numbers{float(region.system), region.bed, region.inBone ? 1.0f : 0.0f};
@@ -112,6 +146,7 @@ std::uint64_t keyOf(const Body& body, const GrowthRules& rules, const std::vecto
                                                std::uint32_t(one.side) | std::uint32_t(one.againstFlow) << 1};
     key = hashOf(std::span<const std::uint32_t>(numbers), key);
   }
+  key = hashOf(feeds, key);
   return hashOf(wish.spans, hashOf(wish.rest.knotFrames, hashOf(wish.rest.points, key)));
 }
 
@@ -160,13 +195,15 @@ CapillaryBeds growthBeds(const Scene& scene, const GrowthRules& rules,
   for (const Looked& one : looked)
     beds.regionOfSpan.push_back(
         one.source && regions[one.region].system != GrowthRegion::kNoSystem ? one.region : std::uint8_t(255));
-  const std::uint64_t key = keyOf(scene.body, rules, regions, organs, wish, looked);
+  const std::vector<char> feeds = feedsOf(network, regions, organs);
+  const std::uint64_t key = keyOf(scene.body, rules, regions, organs, feeds, wish, looked);
   if (const auto kept = findKept(kKind, key))
     if (restore(*kept, beds)) return beds;
   Tissue tissue = tissueOf(scene.body, kCube * wish.scale, placesOf(network.points()),
                            kWayWithoutSkin * wish.scale, organs.rooms);
   wish.mostWay = tissue.hasSkin ? std::numeric_limits<float>::infinity() : kWayWithoutSkin * wish.scale;
   lookAlong(looked, regions, tissue, wish);
+  leaveOutPassing(feeds, tissue, wish);
   shareOut(tissue, wish, beds);
   ByteWriter out;
   out.addAll(std::span<const shared::GrowthBed>(beds.beds));

@@ -65,6 +65,23 @@ TEST_CASE("organs are filled by the row that names them, which no vessel chooses
   CHECK(regionOfOrgan(*regions, "bones") == nullptr);
 }
 
+TEST_CASE("an organ's row names the vessels that feed it, by parts of names or by whole ids") {
+  const auto regions = parseRegions(kColumns.substr(0, kColumns.size() - 1) +
+                                        ",organs,wall_mm\n"
+                                        "liver,oak,,Hepatic|FMA12,,,,9,,liver,\n"
+                                        "spleen,oak,,,,,,9,,spleen,\n"
+                                        "rest,oak,,,,0,3,8,,,\n",
+                                    "r.csv", rules());
+  REQUIRE_MESSAGE(regions.ok(), (regions.ok() ? "" : regions.error().message));
+  const GrowthRegion &liver = *regionOfOrgan(*regions, "liver"), &spleen = *regionOfOrgan(*regions, "spleen");
+  CHECK(namesVessel(liver, "left hepatic artery", ""));
+  CHECK(namesVessel(liver, "some vein", "fma12"));
+  CHECK(!namesVessel(liver, "some vein", "FMA123"));
+  CHECK(!namesVessel(liver, "inferior phrenic artery", ""));
+  CHECK(namesVessel(spleen, "inferior phrenic artery", ""));  // it names none
+  CHECK(regionOf(*regions, {"left hepatic artery", "", "Spine", VesselKind::artery})->name == "rest");
+}
+
 TEST_CASE("what the program ships can be read") {
   const std::filesystem::path folder = VASA_GROWTH_DIR;
   const auto shipped = readGrowthRules(folder / "capillaries.lsys");

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <map>
 #include <vector>
 
 #include "capillary_filling.h"
@@ -93,7 +94,7 @@ TEST_CASE(
   CHECK(filling.windpipe < 0.015);
 }
 
-TEST_CASE("an organ's capillaries hang on its own vessels, or on those that run through it") {
+TEST_CASE("an organ's capillaries hang on its own vessels, not on those that run through it") {
   const CapillaryBeds& beds = grown().growth.beds;
   const PosedNetwork rest = grown().rest();
   struct Owner {
@@ -103,8 +104,17 @@ TEST_CASE("an organ's capillaries hang on its own vessels, or on those that run 
   for (const Owner& owner :
        {Owner{"left lung", "lungs", {"pulmonary", "bronchial", "lingular"}},
         {"right lung", "lungs", {"pulmonary", "bronchial", "lingular"}},
-        {"liver", "glands", {"hepatic", "portal", "liver", "cystic"}},
-        {"kidney", "glands", {"renal", "kidney"}},
+        {"liver", "liver", {"hepatic", "portal", "liver"}},
+        {"kidney", "kidneys", {"renal", "kidney"}},
+        {"spleen", "spleen", {"splen", "spleen"}},
+        {"pancreas", "pancreas", {"pancrea", "splenic"}},
+        {"stomach", "stomach", {"gastr", "stomach"}},
+        {"small bowel",
+         "small bowel",
+         {"small bowel", "mesenteric", "jejunal", "ileal", "ileocolic", "intestinal", "duodenal"}},
+        {"large bowel",
+         "large bowel",
+         {"large bowel", "colic", "colon", "cecal", "appendicular", "sigmoid", "rectal"}},
         {"heart",
          "heart",
          {"coronary", "interventricular", "circumflex", "marginal", "diagonal", "posterolateral",
@@ -115,6 +125,7 @@ TEST_CASE("an organ's capillaries hang on its own vessels, or on those that run 
     const TriangleMesh atRest = meshAtRest(human().body, *mesh);
     const WindingNumber inside(atRest.positions, atRest.triangles);
     int all = 0, own = 0;
+    std::map<std::string, int> others;
     for (std::size_t i = 0; i < beds.beds.size(); ++i) {
       if (grown().growth.regions[beds.regionOfBed[i]].name != owner.region)
         continue;  // of one that overlaps it
@@ -125,13 +136,17 @@ TEST_CASE("an organ's capillaries hang on its own vessels, or on those that run 
       for (const auto& stem : bed.stem) {
         if (stem.from == shared::kNoStem) continue;
         const std::string& name = human().network.vessels()[beds.spans[stem.span].vessel].name;
+        const bool isOwn = std::ranges::any_of(
+            owner.vessels, [&](const char* part) { return name.find(part) != std::string::npos; });
         ++all;
-        own += std::ranges::any_of(owner.vessels,
-                                   [&](const char* part) { return name.find(part) != std::string::npos; });
+        own += isOwn;
+        if (!isOwn) ++others[name];
       }
     }
-    MESSAGE(owner.organ << ": " << own << " of " << all << " stems");
+    std::string named;
+    for (const auto& [name, count] : others) named.append("; ").append(name) += " " + std::to_string(count);
+    MESSAGE(owner.organ << ": " << own << " of " << all << " stems" << named);
     CHECK(all > 20);
-    CHECK(own >= 0.7 * all);
+    CHECK(own >= 0.98 * all);
   }
 }
