@@ -2,7 +2,6 @@
 #include "body/mesh_role.h"
 #include "body/skin_field.h"
 #include "body/skin_shell.h"
-#include "body/skinning.h"
 #include "core/parallel.h"
 #include "curve/bezier.h"
 #include "scene/scene.h"
@@ -24,8 +23,7 @@ class FillingMeter {
   explicit FillingMeter(const Scene& scene) : skin_(skinAtRest(scene.body)) {
     for (const SkinnedMesh& mesh : scene.body.meshes) {
       if (&mesh == skinOf(scene.body)) continue;
-      TriangleMesh rest = mesh.mesh;
-      skinPositions(mesh, skinMatrices(scene.body.skeleton, restPose(scene.body.skeleton)), rest.positions);
+      const TriangleMesh rest = meshAtRest(scene.body, mesh);
       (isSolid(mesh) ? bones_ : organs_).emplace_back(rest.positions, rest.triangles);
       if (!isSolid(mesh)) organNames_.push_back(mesh.name), organBounds_.push_back(rest.bounds());
     }
