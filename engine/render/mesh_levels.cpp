@@ -35,13 +35,19 @@ constexpr float kBend = 0.96f;
 constexpr float kAlone = 0.999f;     // weight of a joint that has a vertex to itself
 constexpr float kWorthwhile = 0.8f;  // a level has at most this share of the triangles of the one before
 
-// Where the mesh is with all joints but roots bent, or at rest where it does not bend.
+// Where the mesh is with all joints but roots bent, or at rest where it does not bend: nor do bones, of which
+// some vertices go with axial bones, beyond the joints.
 std::vector<vec3> bentPositions(const SkinnedMesh& mesh, const Skeleton* skeleton) {
   const bool bends = std::ranges::any_of(mesh.influences, [](const SkinInfluence& influence) {
     return std::max({influence.weights.x, influence.weights.y, influence.weights.z, influence.weights.w}) <
            kAlone;
   });
   if (!skeleton || !bends) return mesh.mesh.positions;
+  const auto isBone = [&](const SkinInfluence& influence) {
+    return std::ranges::any_of(influence.joints,
+                               [&](auto joint) { return joint >= skeleton->joints.size(); });
+  };
+  if (std::ranges::any_of(mesh.influences, isBone)) return mesh.mesh.positions;
   const quat bend = glm::angleAxis(kBend, glm::normalize(vec3(1)));
   std::vector<JointTransform> local;
   for (const auto& joint : skeleton->joints) {

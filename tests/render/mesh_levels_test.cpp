@@ -163,6 +163,13 @@ TEST_CASE("levels of a straight arm hold where its elbow is bent") {
   };
   CHECK(error(nullptr) > 0.01f);
   CHECK(error(&arm) < 0.004f);
+  // A bone's mesh: vertices of an axial bone go with none of the skeleton's joints.
+  const LevelledMesh atRest = coarserLevels(mesh);
+  mesh.influences.front() = {{2, 0, 0, 0}, vec4(1, 0, 0, 0)};
+  const LevelledMesh bone = coarserLevels(mesh, &arm);
+  REQUIRE(bone.levels.size() == atRest.levels.size());
+  for (std::size_t k = 0; k < bone.levels.size(); ++k)
+    CHECK(bone.levels[k].triangles == atRest.levels[k].triangles);
 }
 
 TEST_CASE("a mesh of nothing and a triangle have no coarser levels") {
