@@ -66,10 +66,11 @@ Result<SceneFile> sceneOf(const std::filesystem::path& path, const SceneFile& no
   return scene;
 }
 
-bool isVessels(const std::filesystem::path& file) {
+Result<bool> isVessels(const std::filesystem::path& file) {
   if (!isGltfFile(file)) return extensionOf(file) == ".vasa" || holdsSurfaces(file) || holdsCentrelines(file);
   const auto summary = checkGltf(file);
-  return summary && summary->skins == 0;
+  if (!summary) return summary.error();
+  return summary->skins == 0;
 }
 
 Result<viewer::ViewOptions> prepare(const Globals& globals, const Options& options) {
@@ -86,14 +87,15 @@ Result<viewer::ViewOptions> prepare(const Globals& globals, const Options& optio
     if (given)
       return Error{Fault::usage, std::string(given) + " is of vessels that --network gives; give --network " +
                                      file.string() + " in place of " + file.string()};
-    const bool vessels = isVessels(file);
-    const char* const twice = vessels                                              ? nullptr
+    const Result<bool> vessels = isVessels(file);
+    if (!vessels) return vessels.error();
+    const char* const twice = *vessels                                             ? nullptr
                               : isGltfFile(file) && !scene.body.empty()            ? "--body"
                               : isMotionFile(file.string()) && !scene.clip.empty() ? "--clip"
                                                                                    : nullptr;
     if (twice)
       return Error{Fault::usage, file.string() + ": " + twice + " gives another one; leave out one of them"};
-    if (vessels && (!scene.body.empty() || !scene.networks.empty()))
+    if (*vessels && (!scene.body.empty() || !scene.networks.empty()))
       scene.networks.insert(scene.networks.begin(), file.string());
     else
       view.dropped = {file};

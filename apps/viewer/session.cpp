@@ -57,13 +57,12 @@ Result<ViewReport> Session::run() {
   return *done;
 }
 
-// Told now, not once there is a session to lose. What is no file (/dev/full, a pipe) shows at the end.
+// Told now, not once there is a session to lose. What is written as it stands (/dev/full, a pipe) shows at
+// the end.
 Result<void> Session::checkRecord() const {
   std::error_code ignored;
   const auto status = std::filesystem::status(options_.record, ignored);
-  if (options_.record.empty() ||
-      (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)))
-    return {};
+  if (options_.record.empty() || std::filesystem::is_other(status)) return {};
   const auto file = AtomicFile::create(options_.record);
   return file ? Result<void>() : file.error();
 }

@@ -15,16 +15,17 @@ float largestScale(vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std:
 float greatestOf(const Track<vec3>& track, vec3 rest, vec3 from, float (*measure)(vec3)) {
   if (track.times.empty()) return measure(rest - from);
   const bool cubic = track.interpolation == Interpolation::cubic;
-  float values = 0, tangents = 0, step = 0;
-  for (std::size_t i = 0; i < track.values.size(); ++i)
-    if (cubic && i % 3 != 1)
-      tangents = std::max(tangents, measure(track.values[i]));
-    else
-      values = std::max(values, measure(track.values[i] - from));
-  if (cubic)
-    for (std::size_t i = 1; i < track.times.size(); ++i)
-      step = std::max(step, track.times[i] - track.times[i - 1]);
-  return values + tangents * step;
+  const std::size_t stride = cubic ? 3 : 1;  // of a cubic's key: tangent in, value, tangent out
+  float values = 0, swing = 0;
+  for (std::size_t k = 0; k < track.times.size(); ++k) {
+    values = std::max(values, measure(track.values[stride * k + stride / 2] - from));
+    if (!cubic || k == 0) continue;
+    // Hermite's two polynomials that go with tangents are 4/27 of the step at most.
+    const float step = track.times[k] - track.times[k - 1];
+    swing = std::max(swing, 4 / 27.0f * step *
+                                (measure(track.values[stride * k - 1]) + measure(track.values[stride * k])));
+  }
+  return values + swing;
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ State evaluate(const Curve& a, const Curve& b, double s, double t) {
   return {s, t, glm::length(gap) - p.w - q.w, gap};
 }
 
-// A curve's chords, each with a ball around its own piece of the curve and radii.
+// A curve's chords, each with a ball around it and its radii.
 struct Chords {
   std::array<dvec4, kPieces + 1> ends;
   std::array<dvec4, kPieces> balls;

@@ -362,7 +362,7 @@ class Attacher {
       const bool hostedThere = !graph_.isFree(other) && graph_.joints[graph_.jointAt(other)].host;
       if (facing || (!graph_.isFree(other) && !hostedThere)) return joinToEnd(candidate, other);
     }
-    const vec3 place = placeOnHost(tip, host, at);
+    const vec3 place = placeOnHost(tip, host, at, snap);
     if (turnsBack(candidate.end, candidate.strand, place)) return false;
     cutInside(candidate.end, host);
     trimTaper(graph_.strands[candidate.end.strand].sections, candidate.end.last);
@@ -372,12 +372,14 @@ class Attacher {
   }
 
   // Where the branch's own course comes nearest to the host's axis, so that it keeps its slant.
-  static vec3 placeOnHost(const OpenTip& tip, const Sections& host, const Along& at) {
+  // @param margin  [m] at the host's ends, which are not meant
+  static vec3 placeOnHost(const OpenTip& tip, const Sections& host, const Along& at, float margin) {
+    const float length = lengthOf(host);
     Along best = at;
     for (int step = 1; step <= kAheadSteps; ++step) {
       const float way = kFarthestAhead * at.distance * float(step) / kAheadSteps;
       const Along there = nearestAlong(host, tip.place + way * tip.outward);
-      if (there.distance < best.distance) best = there;
+      if (there.distance < best.distance && there.arc >= margin && there.arc <= length - margin) best = there;
     }
     return vec3(best.section);
   }

@@ -1,8 +1,10 @@
 #include "convert/convert.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <cstdio>
 
 #include "convert/hollow.h"
 #include "convert/strokes.h"
@@ -38,8 +40,9 @@ float heightOf(std::span<const SourceElement> elements) {
 }
 
 std::string millimetresText(float metres) {
-  const std::string text = std::to_string(1000 * metres);
-  return text.substr(0, text.find('.') + 2);
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g", 1000 * double(metres));
+  return text.data();
 }
 
 // With every hollow wall by its lumen alone; empty where there is none.
@@ -122,7 +125,7 @@ Result<Conversion> convertElements(std::span<const SourceElement> given, const C
   auto assembly = assembleNetwork(std::move(graph), elements, options.fit, bodyHeight);
   if (!assembly)
     return badInput("the vessels that were found make no network (" + assembly.error().message +
-                    "); if they are not " + millimetresText(bodyHeight) +
+                    "); if they are not " + millimetresText(heightOf(elements)) +
                     " mm tall, give their unit (--unit, --scale); if surfaces are torn or run through "
                     "themselves, mend them, or give centre lines");
   if (options.mend) {

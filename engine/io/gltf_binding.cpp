@@ -138,10 +138,15 @@ float difference(const mat4& a, const mat4& b) {
   return largest;
 }
 
-bool restAtBinding(Skeleton& skeleton, const std::vector<BoundSkin>& skins) {
+const BoundSkin* largestSkin(const std::vector<BoundSkin>& skins) {
   const auto largest =
       std::ranges::max_element(skins, {}, [](const BoundSkin& skin) { return skin.joints.size(); });
-  if (largest == skins.end() || !isPosed(skeleton, *largest)) return false;
+  return largest == skins.end() ? nullptr : &*largest;
+}
+
+bool restAtBinding(Skeleton& skeleton, const std::vector<BoundSkin>& skins) {
+  const BoundSkin* const largest = largestSkin(skins);
+  if (!largest || !isPosed(skeleton, *largest)) return false;
   std::vector<std::optional<mat4>> bound(skeleton.joints.size());
   for (std::size_t i = 0; i < largest->joints.size(); ++i) {
     if (!sound(largest->inverseBinds[i])) return false;

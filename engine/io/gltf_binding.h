@@ -14,6 +14,9 @@ struct BoundSkin {
   bool packed = false;
 };
 
+/// The skin with most joints, the first of equals; or null where there is none.
+const BoundSkin* largestSkin(const std::vector<BoundSkin>& skins);
+
 /// The largest between elements of two matrices.
 float difference(const mat4& a, const mat4& b);
 

@@ -151,7 +151,9 @@ void leaveOutStrays(std::vector<Clip>& clips, const Skeleton& skeleton, const st
 // What the file leaves open of where the body is at rest, and what of it is not seen.
 void tellWhatIsOpen(const Asset& asset, const BodySkeleton& joints, const Body& body) {
   const auto& model = asset.model;
-  if (std::ranges::any_of(model.skins, [](const Model::Skin& skin) {
+  if (std::ranges::any_of(model.nodes, [&](const Model::Node& node) {
+        if (node.mesh < 0 || node.skin < 0) return false;
+        const Model::Skin& skin = model.skins[std::size_t(node.skin)];
         return skin.inverseBindMatrices < 0 && skin.joints.size() > 1;
       }))
     logWarning(asset.name +
@@ -166,9 +168,10 @@ void tellWhatIsOpen(const Asset& asset, const BodySkeleton& joints, const Body& 
   const bool hasMesh =
       std::ranges::any_of(model.nodes, [](const Model::Node& node) { return node.mesh >= 0; });
   if (hasMesh && body.meshes.empty())
-    logWarning(asset.name +
-               ": none of its meshes can be shown: they have no triangles, or are no part of the scene that "
-               "the file opens with; the body is its skeleton alone");
+    logWarning(
+        asset.name +
+        ": none of its meshes can be shown: they have no triangles, nothing moves them, or they are no "
+        "part of the scene that the file opens with; the body is its skeleton alone");
 }
 
 }  // namespace

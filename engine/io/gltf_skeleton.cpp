@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <optional>
 
 #include "io/gltf_accessor.h"
@@ -245,7 +244,7 @@ BodySkeleton buildSkeleton(const Asset& asset, const NodeTree& tree) {
   }
   const Skeleton asFile = skeleton;
   if (restAtBinding(skeleton, bound)) {
-    out.packedAndPosed = std::ranges::any_of(packed, std::identity());
+    out.packedAndPosed = largestSkin(bound)->packed;
     for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
       const mat4& before = asFile.joints[j].restWorld;
       out.fileRest.push_back(asFile.joints[j].rest);

@@ -200,14 +200,14 @@ class MeshLayout {
   }
 
   // A vessel's wall ends half way to the next one's ring, so that where both end in a ring of their own is
-  // where they meet; but a trunk's first vessel keeps all of its holes.
-  std::uint32_t vesselAt(const shared::ForkRecord& fork, std::uint32_t row) const {
+  // where they meet; but a trunk's first vessel keeps all of its holes. A stump's tip is its own.
+  std::uint32_t vesselAt(const shared::ForkRecord& fork, const ForkLayout& layout, std::uint32_t row) const {
     if (row < shared::kTrunkRows) {
-      const std::uint32_t last = fork.branchCount > 0 ? shared::kTrunkRows - 2 : shared::kTrunkRows / 2;
-      return row <= last ? fork.vesselA : fork.vesselB;
+      const bool holes = fork.branchCount > 0 && !layout.cut;
+      return row <= (holes ? shared::kTrunkRows - 2 : shared::kTrunkRows / 2) ? fork.vesselA : fork.vesselB;
     }
     const std::uint32_t branch = (row - shared::kTrunkRows) / kBranchRows;
-    if (row <= holeRow(branch) + shared::kCollarRows / 2) return fork.vesselA;
+    if (!layout.stump[branch] && row <= holeRow(branch) + shared::kCollarRows / 2) return fork.vesselA;
     return network_.table.branches[fork.firstBranch + branch].vessel;
   }
 
@@ -220,7 +220,7 @@ class MeshLayout {
         evaluateFork(network_, fork, shape, points, fixed_.empty() ? nullptr : &fixed_[index]);
     for (std::uint32_t vertex = 0; vertex < points.size(); ++vertex) {
       const auto [target, own] = targetOf(place, layout, vertex);
-      if (own) put(target, points[vertex], vesselAt(fork, vertex / shape_.around));
+      if (own) put(target, points[vertex], vesselAt(fork, layout, vertex / shape_.around));
     }
     // A triangle's vessel is that of its first vertex (SurfaceMesh): of the last row that it touches.
     std::vector<uvec3> triangles =

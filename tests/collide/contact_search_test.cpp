@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
+
 #include "collide/closest_tubes.h"
 #include "collide/tube_detector.h"
 #include "support/tube_network.h"
@@ -23,19 +25,28 @@ TEST_CASE("crossing tubes: the place, the depth, and a unit normal from j to i")
   CHECK(glm::length(nearestPlace(a, a).normal) == doctest::Approx(1));
 }
 
-TEST_CASE("of several places where tubes run near one another the deepest is found") {
-  // A straight tube, and one that waves beside it and comes a little nearer at one end than at the other.
-  for (const float nearer : {0.004f, 0.001f, -0.001f, -0.004f}) {
-    Bezier a, b;
-    for (int k = 0; k < 4; ++k) {
-      const float x = float(k) / 3;
-      a.b[std::size_t(k)] = vec4(x, 0, 0, 0.02f);
-      b.b[std::size_t(k)] =
-          vec4(x, 0.04f + (k == 1 || k == 2 ? 0.05f : 0) + nearer * x, 0.001f * float(k), 0.02f);
-    }
+TEST_CASE("of two places where tubes come near one another the deeper is found, whatever their chords say") {
+  // c0 + c1 t + c2 t² + c3 t³
+  const auto cubic = [](vec3 c0, vec3 c1, vec3 c2, vec3 c3) {
+    Bezier tube;
+    const std::array<vec3, 4> b{c0, c0 + c1 / 3.0f, c0 + (2.0f * c1 + c2) / 3.0f, c0 + c1 + c2 + c3};
+    for (std::size_t k = 0; k < 4; ++k) tube.b[k] = vec4(b[k], 0.02f);
+    return tube;
+  };
+  const Bezier a = cubic(vec3(0), {1, 0, 0}, vec3(0), vec3(0));
+  // The other runs beside it at a height y, and crosses over it at t = 0.3 and 0.8. There y is equal but for
+  // what is added; but it bends up at the first, so that a chord lies above it, and down at the second.
+  const float size = 0.1f, third = -2 / 3.0f * size;
+  const vec3 cross{0, 0, 0.4f};
+  for (const float more : {-0.008f, 0.003f, 0.006f}) {
+    const float slope = size * (0.0417f + more);
+    const Bezier b = cubic(0.24f * cross + vec3(0, 0.04f - third * 0.166375f - 0.3f * slope, 0),
+                           -1.1f * cross + vec3(1, third * 0.9075f + slope, 0),
+                           cross - vec3(0, third * 1.65f, 0), {0, third, 0});
     const Contact contact = nearestPlace(a, b), truth = closestOfTubes(a, b, 1e-9);
-    CHECK(contact.f == doctest::Approx(truth.f).scale(1e-3).epsilon(1e-3));
     CHECK(contact.s == doctest::Approx(truth.s).epsilon(0.01));
+    CHECK(contact.f == doctest::Approx(truth.f).scale(0.04).epsilon(1e-5));
+    CHECK(contact.s == doctest::Approx(more > 0 ? 0.3 : 0.8).epsilon(0.05));
   }
 }
 
