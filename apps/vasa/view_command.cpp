@@ -44,33 +44,52 @@ SceneFile withVessels(SceneFile scene, const std::filesystem::path& path) {
   return scene;
 }
 
-// What a dropped file means: a scene, a body or vessels for what is shown, or a motion for it. A glTF file
-// with a skeleton is a body, one without is vessels.
-Result<SceneFile> sceneOf(const std::filesystem::path& path, const SceneFile& now) {
+enum class Opened { scene, motion, body, vessels };
+
+// A glTF file with a skeleton is a body, one without is vessels.
+Result<Opened> whatIs(const std::filesystem::path& path) {
   const std::string extension = extensionOf(path);
-  if (extension == ".json") return chooseScene({.scene = path.string()});
-  SceneFile scene = now;
-  if (isMotionFile(path.string())) {
-    scene.clip = path.string(), scene.time = 0;
-  } else if (isGltfFile(path)) {
+  if (extension == ".json") return Opened::scene;
+  if (isMotionFile(path.string())) return Opened::motion;
+  if (isGltfFile(path)) {
     const auto summary = checkGltf(path);
     if (!summary) return summary.error();
-    if (summary->skins == 0) return withVessels(std::move(scene), path);
+    return summary->skins == 0 ? Opened::vessels : Opened::body;
+  }
+  if (extension == ".vasa" || holdsSurfaces(path) || holdsCentrelines(path)) return Opened::vessels;
+  return Error{Fault::usage, path.string() + ": this is no kind of file that the app opens; " + kOpenable};
+}
+
+// What a dropped file means: a scene, a body or vessels for what is shown, or a motion for it.
+Result<SceneFile> sceneOf(const std::filesystem::path& path, const SceneFile& now) {
+  const auto opened = whatIs(path);
+  if (!opened) return opened.error();
+  if (*opened == Opened::scene) return chooseScene({.scene = path.string()});
+  if (*opened == Opened::vessels) return withVessels(now, path);
+  SceneFile scene = now;
+  if (*opened == Opened::motion) {
+    scene.clip = path.string(), scene.time = 0;
+  } else {
     scene.body = path;
     if (!isMotionFile(scene.clip)) scene.clip.clear();
-  } else if (extension == ".vasa" || holdsSurfaces(path) || holdsCentrelines(path)) {
-    return withVessels(std::move(scene), path);
-  } else {
-    return Error{Fault::usage, path.string() + ": this is no kind of file that the app opens; " + kOpenable};
   }
   return scene;
 }
 
-Result<bool> isVessels(const std::filesystem::path& file) {
-  if (!isGltfFile(file)) return extensionOf(file) == ".vasa" || holdsSurfaces(file) || holdsCentrelines(file);
-  const auto summary = checkGltf(file);
-  if (!summary) return summary.error();
-  return summary->skins == 0;
+// A file that is named as it is, beside options: vessels join those that --network gives, of a body or a
+// motion there is one. @return whether it was taken; else it is opened as a dropped one
+Result<bool> takeBesideOptions(const std::filesystem::path& file, SceneOptions& scene) {
+  if (scene.body.empty() && scene.networks.empty() && scene.clip.empty()) return false;
+  const auto opened = whatIs(file);
+  if (!opened) return opened.error();
+  const char* const twice = *opened == Opened::body && !scene.body.empty()     ? "--body"
+                            : *opened == Opened::motion && !scene.clip.empty() ? "--clip"
+                                                                               : nullptr;
+  if (twice)
+    return Error{Fault::usage, file.string() + ": " + twice + " gives another one; leave out one of them"};
+  if (*opened != Opened::vessels || (scene.body.empty() && scene.networks.empty())) return false;
+  scene.networks.insert(scene.networks.begin(), file.string());
+  return true;
 }
 
 Result<viewer::ViewOptions> prepare(const Globals& globals, const Options& options) {
@@ -87,18 +106,9 @@ Result<viewer::ViewOptions> prepare(const Globals& globals, const Options& optio
     if (given)
       return Error{Fault::usage, std::string(given) + " is of vessels that --network gives; give --network " +
                                      file.string() + " in place of " + file.string()};
-    const Result<bool> vessels = isVessels(file);
-    if (!vessels) return vessels.error();
-    const char* const twice = *vessels                                             ? nullptr
-                              : isGltfFile(file) && !scene.body.empty()            ? "--body"
-                              : isMotionFile(file.string()) && !scene.clip.empty() ? "--clip"
-                                                                                   : nullptr;
-    if (twice)
-      return Error{Fault::usage, file.string() + ": " + twice + " gives another one; leave out one of them"};
-    if (*vessels && (!scene.body.empty() || !scene.networks.empty()))
-      scene.networks.insert(scene.networks.begin(), file.string());
-    else
-      view.dropped = {file};
+    const auto taken = takeBesideOptions(file, scene);
+    if (!taken) return taken.error();
+    if (!*taken) view.dropped = {file};
     scene.scene.clear();
   }
   auto choice = chooseScene(scene, options.capillaries.rules);

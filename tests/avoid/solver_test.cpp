@@ -226,35 +226,13 @@ TEST_CASE("shorter steps lead to about the same place, and change corrections th
       posed.points[p].x += 0.02f * share;
     return posed;
   };
-  struct Way {
-    std::vector<vec4> end;
-    float largest = 0;
-  };
   const auto go = [&](unsigned steps) {
     Avoider avoider(network);
     test::Walker walker(avoider, test::atRest(network));
-    Way way;
-    walker.seen = [&](const AvoidReport& report) {
-      CHECK(report.after.holds());
-      way.largest = std::max(way.largest, walker.correctionStep());
-    };
-    walker.along(swept, steps, 1);
-    way.end = walker.points();
-    return way;
+    walker.seen = [&](const AvoidReport& report) { CHECK(report.after.holds()); };
+    return test::wayOf(walker, swept, steps);
   };
-  Way coarse = go(30);
-  for (const unsigned steps : {120u, 480u}) {
-    CAPTURE(steps);
-    const Way fine = go(steps);
-    float apart = 0;
-    for (std::size_t p = 0; p < fine.end.size(); ++p)
-      apart = std::max(apart, glm::distance(vec3(fine.end[p]), vec3(coarse.end[p])));
-    MESSAGE(steps << " steps: " << 1e3f * apart << " mm apart, largest " << 1e3f * fine.largest << " mm of "
-                  << 1e3f * coarse.largest << " mm");
-    CHECK(apart < 0.05f * 0.004f);
-    CHECK(fine.largest < 0.33f * coarse.largest);
-    coarse = fine;
-  }
+  test::checkShorterSteps(go, 0.05f * 0.004f, 0.33f);
 }
 
 TEST_CASE("what overlaps at rest stays admissible") {

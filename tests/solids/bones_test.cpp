@@ -129,36 +129,16 @@ TEST_CASE("a bone that turns over under a vessel lifts it and lets it down again
 
 TEST_CASE("shorter steps of a bone change corrections the less, and lead to about the same place") {
   const Setting setting = settingAt(0.014f);
-  struct Way {
-    std::vector<vec4> end;
-    float largest = 0;
-  };
   const auto go = [&](unsigned steps) {
     Avoider avoider(setting.network, &setting.body);
     test::Walker walker(avoider, lowered(setting, 0));
-    Way way;
-    walker.seen = [&](const AvoidReport& report) {
-      CHECK(report.bonesAfter.contacts == 0);
-      way.largest = std::max(way.largest, walker.correctionStep());
-    };
-    walker.along([&](float share) { return lowered(setting, 0, glm::rotate(mat4(1), share, vec3(0, 0, 1))); },
-                 steps, 1);
-    way.end = walker.points();
-    return way;
+    walker.seen = [&](const AvoidReport& report) { CHECK(report.bonesAfter.contacts == 0); };
+    return test::wayOf(
+        walker, [&](float share) { return lowered(setting, 0, glm::rotate(mat4(1), share, vec3(0, 0, 1))); },
+        steps);
   };
-  Way coarse = go(30);
-  for (const unsigned steps : {120u, 480u}) {
-    CAPTURE(steps);
-    const Way fine = go(steps);
-    float apart = 0;
-    for (std::size_t p = 0; p < fine.end.size(); ++p)
-      apart = std::max(apart, glm::distance(vec3(fine.end[p]), vec3(coarse.end[p])));
-    MESSAGE(steps << " steps: " << 1e3f * apart << " mm apart, largest " << 1e3f * fine.largest << " mm of "
-                  << 1e3f * coarse.largest << " mm");
-    CHECK(apart < 0.002f);  // its radius: how far a vessel slides over the corner of a box depends on the way
-    CHECK(fine.largest < 0.4f * coarse.largest);
-    coarse = fine;
-  }
+  // Apart by its radius: how far a vessel slides over the corner of a box depends on the way.
+  test::checkShorterSteps(go, 0.002f, 0.4f);
 }
 
 TEST_CASE("a vessel that another one pushes towards a bone is held off it") {

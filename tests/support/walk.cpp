@@ -1,5 +1,7 @@
 #include "support/walk.h"
 
+#include <doctest/doctest.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -108,6 +110,35 @@ Solved solve(Avoider& avoider, const Posed& rest, const Posed& pose) {
   Walker walker(avoider, rest);
   const AvoidReport report = walker.to(pose);
   return {avoider.look(pose, pose.points), report, walker.points()};
+}
+
+Way wayOf(Walker& walker, const std::function<Posed(float)>& way, unsigned steps) {
+  Way made;
+  const auto seen = walker.seen;
+  walker.seen = [&](const AvoidReport& report) {
+    seen(report);
+    made.largest = std::max(made.largest, walker.correctionStep());
+  };
+  walker.along(way, steps, 1);
+  walker.seen = seen;
+  made.end = walker.points();
+  return made;
+}
+
+void checkShorterSteps(const std::function<Way(unsigned)>& made, float apart, float share) {
+  Way coarse = made(30);
+  for (const unsigned steps : {120u, 480u}) {
+    CAPTURE(steps);
+    const Way fine = made(steps);
+    float farthest = 0;
+    for (std::size_t p = 0; p < fine.end.size(); ++p)
+      farthest = std::max(farthest, glm::distance(vec3(fine.end[p]), vec3(coarse.end[p])));
+    MESSAGE(steps << " steps: " << 1e3f * farthest << " mm apart, largest " << 1e3f * fine.largest
+                  << " mm of " << 1e3f * coarse.largest << " mm");
+    CHECK(farthest < apart);
+    CHECK(fine.largest < share * coarse.largest);
+    coarse = fine;
+  }
 }
 
 std::vector<vec4> line(vec3 from, vec3 to, float radius, std::uint32_t count) {

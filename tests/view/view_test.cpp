@@ -482,6 +482,10 @@ TEST_CASE("vessels may be named as they are beside a body or other vessels") {
                  on(display, folder));
   CHECK(twice.exit == 2);
   CHECK_MESSAGE(twice.err.find("--body gives another one") != std::string::npos, twice.err);
+  const auto missing =
+      runProgram({"view", "missing.glb", "--body", humanBody().string()}, on(display, folder));
+  CHECK(missing.exit == 6);
+  CHECK_MESSAGE(missing.err.find("missing.glb: cannot open") != std::string::npos, missing.err);
 }
 
 TEST_CASE("a session that a signal ends leaves what was not saved in a scene of its own") {
