@@ -200,15 +200,14 @@ class MeshLayout {
   }
 
   // A vessel's wall ends half way to the next one's ring, so that where both end in a ring of their own is
-  // where they meet; but a trunk's first vessel keeps all of its holes. A stump's tip is its own.
+  // where they meet. A trunk of two vessels is divided in the middle of its holes, where the third comes in,
+  // and the collar is the third's; that of a trunk of one is half the trunk's. A stump's tip is its own.
   std::uint32_t vesselAt(const shared::ForkRecord& fork, const ForkLayout& layout, std::uint32_t row) const {
-    if (row < shared::kTrunkRows) {
-      const bool holes = fork.branchCount > 0 && !layout.cut;
-      return row <= (holes ? shared::kTrunkRows - 2 : shared::kTrunkRows / 2) ? fork.vesselA : fork.vesselB;
-    }
+    if (row < shared::kTrunkRows) return row <= shared::kTrunkRows / 2 ? fork.vesselA : fork.vesselB;
     const std::uint32_t branch = (row - shared::kTrunkRows) / kBranchRows;
-    if (!layout.stump[branch] && row <= holeRow(branch) + shared::kCollarRows / 2) return fork.vesselA;
-    return network_.table.branches[fork.firstBranch + branch].vessel;
+    const bool isTrunks = fork.vesselA == fork.vesselB && !layout.stump[branch] &&
+                          row <= holeRow(branch) + shared::kCollarRows / 2;
+    return isTrunks ? fork.vesselA : network_.table.branches[fork.firstBranch + branch].vessel;
   }
 
   std::vector<uvec3> writeFork(std::uint32_t index) {
@@ -222,12 +221,15 @@ class MeshLayout {
       const auto [target, own] = targetOf(place, layout, vertex);
       if (own) put(target, points[vertex], vesselAt(fork, layout, vertex / shape_.around));
     }
-    // A triangle's vessel is that of its first vertex (SurfaceMesh): of the last row that it touches.
+    // A triangle's vessel is that of its first vertex (SurfaceMesh): of the last row of the trunk that it
+    // touches, else of a collar's.
     std::vector<uvec3> triangles =
         forkTriangles(shape, layout, fixed_.empty() ? points : std::span<const SurfacePoint>());
+    const std::uint32_t trunkVertices = shared::kTrunkRows * shape_.around;
+    const auto rank = [&](std::uint32_t v) { return v < trunkVertices ? v + points.size() : v; };
     for (uvec3& t : triangles) {
-      if (t.y > t.x && t.y > t.z) t = {t.y, t.z, t.x};
-      if (t.z > t.x && t.z > t.y) t = {t.z, t.x, t.y};
+      if (rank(t.y) > rank(t.x) && rank(t.y) > rank(t.z)) t = {t.y, t.z, t.x};
+      if (rank(t.z) > rank(t.x) && rank(t.z) > rank(t.y)) t = {t.z, t.x, t.y};
       t = {targetOf(place, layout, t.x).first, targetOf(place, layout, t.y).first,
            targetOf(place, layout, t.z).first};
     }

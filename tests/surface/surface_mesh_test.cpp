@@ -6,6 +6,7 @@
 #include <array>
 #include <map>
 
+#include "core/disjoint_sets.h"
 #include "core/hash.h"
 #include "core/parallel.h"
 #include "network/builder.h"
@@ -50,7 +51,8 @@ TEST_CASE("of two vessels that go on in one another each has its wall up to wher
   CHECK(lowest[1] == doctest::Approx(0.1).epsilon(0.01));
 }
 
-TEST_CASE("each vessel's part of the mesh begins and ends with whole rings") {
+TEST_CASE(
+    "each vessel's part of the mesh begins and ends with whole rings, or where three meet with a loop each") {
   const Network network = test::branchingNetwork(41, 2);
   const SurfaceMesh mesh = surfaceMesh(network, network.points(), test::framesOf(network), {8, 3});
   std::map<std::uint32_t, std::map<std::pair<std::uint32_t, std::uint32_t>, int>> edges;  // by vessel
@@ -61,16 +63,30 @@ TEST_CASE("each vessel's part of the mesh begins and ends with whole rings") {
       ++edges[mesh.vesselOfVertex[t.x]][{from, to}];
     }
   }
-  std::size_t rims = 0;
+  std::map<std::uint32_t, int> vesselsAt;  // of a vertex that lies on a rim
+  std::vector<std::vector<std::uint32_t>> rims;
   for (const auto& [vessel, own] : edges) {
     std::map<std::uint32_t, int> open;  // rims that a vertex lies on, twice
+    DisjointSets loops(mesh.positions.size());
     for (const auto& [edge, count] : own)
-      if (count == 1) ++open[edge.first], ++open[edge.second];
-    for (const auto& [vertex, count] : open) CHECK(count == 2);
-    CHECK(open.size() % 8 == 0);
-    rims += open.size() / 8;
+      if (count == 1) ++open[edge.first], ++open[edge.second], loops.unite(edge.first, edge.second);
+    std::map<std::uint32_t, std::vector<std::uint32_t>> byRoot;
+    for (const auto& [vertex, count] : open) {
+      CHECK(count == 2);
+      ++vesselsAt[vertex];
+      byRoot[loops.find(vertex)].push_back(vertex);
+    }
+    for (auto& [root, rim] : byRoot) rims.push_back(std::move(rim));
   }
-  CHECK(rims > 41);
+  std::size_t whole = 0, meetings = 0;
+  for (const std::vector<std::uint32_t>& rim : rims) {
+    const auto three = std::ranges::count_if(rim, [&](std::uint32_t v) { return vesselsAt[v] == 3; });
+    CHECK((three == 2 || (three == 0 && rim.size() == 8)));
+    ++(three == 0 ? whole : meetings);
+  }
+  CHECK(whole > 41);
+  CHECK(meetings > 0);
+  CHECK(meetings % 3 == 0);
 }
 
 TEST_CASE("the surface of branching networks is closed at all extremes of m and n, whatever the threads") {
