@@ -8,6 +8,11 @@
 #include "math/closest_point.h"
 
 namespace vasa {
+namespace {
+
+constexpr float kTinyStep = 0.25f;  // radii: a step of less would only put a wiggle into the fit
+
+}  // namespace
 
 Along nearestAlong(const Sections& sections, vec3 p) {
   Along best;
@@ -87,8 +92,7 @@ vec4 StrandGraph::sectionAt(StrandEnd end) const {
 void StrandGraph::extendTo(StrandEnd end, vec3 place) {
   Sections& sections = strands[end.strand].sections;
   const vec4 tip = sectionAt(end);
-  // A step that is tiny beside the radius would only put a wiggle into the fit.
-  const bool replace = glm::distance(vec3(tip), place) < 0.25f * tip.w && sections.size() > 2;
+  const bool replace = glm::distance(vec3(tip), place) < kTinyStep * tip.w && sections.size() > 2;
   const vec4 section(place, tip.w);
   if (glm::distance(vec3(tip), place) == 0) return;
   if (replace)
@@ -162,6 +166,29 @@ std::uint32_t StrandGraph::split(std::uint32_t strand, float arc) {
   }
   const StrandEnd halves[] = {{strand, true}, {second, false}};
   return join(std::nullopt, place, halves);
+}
+
+void StrandGraph::removeHooks() {
+  std::vector<std::vector<vec3>> hosted(strands.size());
+  for (const Joint& joint : joints)
+    if (joint.host) hosted[*joint.host].push_back(joint.place);
+  for (std::size_t s = 0; s < strands.size(); ++s) {
+    Sections kept;
+    for (const vec4& section : strands[s].sections) {
+      const auto turnsBack = [&] {
+        if (kept.size() < 2) return false;
+        const vec4 last = kept.back();
+        const vec3 before = vec3(last) - vec3(kept[kept.size() - 2]), after = vec3(section) - vec3(last);
+        return glm::dot(before, after) < 0 && glm::length(before + after) > kTinyStep * last.w &&
+               std::max(glm::length(before), glm::length(after)) < 2 * last.w &&
+               std::ranges::none_of(hosted[s],
+                                    [&](vec3 place) { return glm::distance(place, vec3(last)) < last.w; });
+      };
+      while (turnsBack()) kept.pop_back();
+      kept.push_back(section);
+    }
+    strands[s].sections = std::move(kept);
+  }
 }
 
 // Depth-first over joints: a joint on a host needs the joints at the host's ends settled before it.

@@ -83,3 +83,24 @@ TEST_CASE("dropping a strand frees what hung on it") {
   CHECK(graph.strands[trunk].dropped());
   CHECK(graph.isFree(end));
 }
+
+TEST_CASE("hooks are taken out of a strand, but for those that a branch hangs on") {
+  const auto hooked = [](float x) {  // turns back by 0.8 mm half way
+    Sections sections = sectionsBetween({x, 0, 0}, {x, 0.01f, 0}, 0.001f, 0.0005f);
+    for (const vec4& section : sectionsBetween({x, 0.0092f, 0}, {x, 0.02f, 0}, 0.001f, 0.0005f))
+      sections.push_back(section);
+    return sections;
+  };
+  StrandGraph graph;
+  const auto plain = graph.add({hooked(0), 0, VesselKind::artery});
+  const auto host = graph.add({hooked(0.1f), 0, VesselKind::artery});
+  const auto branch = addLine(graph, vec3(0.1f, 0.01f, 0), vec3(0.13f, 0.01f, 0));
+  const StrandEnd foot{branch, false};
+  graph.join(host, vec3(0.1f, 0.01f, 0), std::span(&foot, 1));
+  CHECK(lengthOf(graph.strands[plain].sections) == doctest::Approx(0.0216f));
+  graph.removeHooks();
+  CHECK(lengthOf(graph.strands[plain].sections) == doctest::Approx(0.02f));
+  CHECK(lengthOf(graph.strands[host].sections) == doctest::Approx(0.0216f));
+  CHECK(graph.strands[plain].sections.front() == vec4(0, 0, 0, 0.001f));
+  CHECK(graph.strands[plain].sections.back().y == doctest::Approx(0.02f));
+}
