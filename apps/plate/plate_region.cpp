@@ -1,10 +1,13 @@
 #include "plate/plate_region.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <optional>
 
 #include "atlas/body_region.h"
 #include "body/mesh_role.h"
+#include "body/rig.h"
 #include "body/skinning.h"
 #include "plate/braincase.h"
 
@@ -53,6 +56,7 @@ const std::vector<Region>& regions() {
   return all;
 }
 
+constexpr float kFacing = 0.52f;    // [rad] that a front may be beside +Z and be taken for it: 30 degrees
 constexpr float kOwnShare = 0.25f;  // of a vessel's points in a region that has it on its page
 
 bool among(const std::vector<BodyPart>& parts, BodyPart part) {
@@ -179,7 +183,14 @@ void takeVessels(PlateSubject& subject, const Scene& scene, const FrameMaker& fr
   subject.vessels.assign(vessels.size(), 1);
   subject.own = subject.vessels;
   if (!choice) {
-    for (const vec4& point : frame.points()) subject.framed.emplace_back(point);
+    // Nothing may lie around the vessels: they are held with their walls.
+    for (const vec4& point : frame.points())
+      for (int axis = 0; axis < 3; ++axis)
+        for (const float side : {-1.0f, 1.0f}) {
+          vec3 wall(point);
+          wall[axis] += side * point.w;
+          subject.framed.push_back(wall);
+        }
     return;
   }
   const auto stations = mainStations(scene.binding);
@@ -197,6 +208,15 @@ void takeVessels(PlateSubject& subject, const Scene& scene, const FrameMaker& fr
 }
 
 }  // namespace
+
+mat3 facing(const Skeleton& skeleton) {
+  const auto trunk = trunkOf(rigOf(skeleton), {"UpperLeg", "UpperArm"});
+  if (!trunk) return mat3(1);
+  const vec3 front = (*trunk)[2];
+  const float angle = std::atan2(front.x, front.z);
+  if (std::hypot(front.x, front.z) < 0.5f || std::abs(angle) < kFacing) return mat3(1);
+  return mat3(glm::rotate(mat4(1), angle, vec3(0, 1, 0)));
+}
 
 std::vector<std::uint16_t> mainJoints(const Body& body, const SkinnedMesh& mesh) {
   std::vector<std::uint16_t> joints;
@@ -220,8 +240,12 @@ Result<PlateSubject> plateSubject(const Scene& scene, const FrameMaker& frame, s
                                   int side) {
   if (auto known = checkPlateName(name); !known) return known.error();
   const auto region = std::ranges::find(regions(), name, &Region::name);
-  PlateSubject subject{
-      .title = region->title, .subtitle = region->view, .towards = region->towards, .up = region->up};
+  const mat3 turn = facing(scene.body.skeleton);
+  PlateSubject subject{.title = region->title,
+                       .subtitle = region->view,
+                       .towards = turn * region->towards,
+                       .up = turn * region->up,
+                       .turn = turn};
   if (region->axis) subject.subtitle = std::string(side < 0 ? "Right, " : "Left, ") + region->view;
   std::optional<Choice> choice;
   if (!region->framed.empty()) {

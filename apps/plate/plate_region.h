@@ -16,9 +16,14 @@ struct PlateSubject {
   std::vector<vec3> framed;         ///< places of the pose that the picture has to hold
   vec3 towards{0, 0, 1};            ///< to the viewer
   vec3 up{0, 1, 0};
+  mat3 turn{1};             ///< facing() of the body: a view's directions are a body's that faces +Z
   bool axial = false;       ///< up is a limb's axis, from wherever one looks
   std::optional<vec4> cut;  ///< Camera::cut
 };
+
+/// Turns +Z to where a body's front is at rest, about the vertical: by its trunk and the sides of its limbs.
+/// Nothing where these are not known, or where the front is within 30 degrees of +Z.
+mat3 facing(const Skeleton& skeleton);
 
 /// Of each of a mesh's vertices the joint that moves it most.
 std::vector<std::uint16_t> mainJoints(const Body& body, const SkinnedMesh& mesh);

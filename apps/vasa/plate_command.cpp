@@ -186,8 +186,8 @@ Result<std::unique_ptr<Job>> prepare(const Options& options) {
   job->subject = std::move(*subject);
   if (const auto view = viewNamed(options.view)) {
     const Camera camera = cameraFrom(*view, Aabb{vec3(-1), vec3(1)}, 1);
-    job->subject.towards = camera.position - camera.target;
-    if (*view == View::top || !job->subject.axial) job->subject.up = camera.up;
+    job->subject.towards = job->subject.turn * (camera.position - camera.target);
+    if (*view == View::top || !job->subject.axial) job->subject.up = job->subject.turn * camera.up;
     std::string& subtitle = job->subject.subtitle;
     std::string seen = viewText(*view);
     // "Right, palmar view": a limb's side stays.
