@@ -13,6 +13,7 @@
 #include "frame_output.h"
 #include "gpu/device.h"
 #include "gpu/error.h"
+#include "io/csv.h"
 #include "io/png.h"
 #include "loading_line.h"
 #include "output_folder.h"
@@ -243,13 +244,12 @@ class PoseWork {
 std::string asCsv(const Report& findings) {
   std::string text = "vessel,kind,value,unit,place,joint,angle_deg,held_joint,held_deg,from_deg,severity\n";
   for (const Report& f : findings) {
-    std::string name = f["vessel"];
-    std::ranges::replace(name, ',', ';');
     const bool held = f["joints"].size() > 1;
-    text += fmt::format("{},{},{:.4g},{},{:.4f},{},{:g},{},{},{:g},{:.3f}\n", visible(name),
-                        f["kind"].get<std::string>(), f["value"].get<double>(), f["unit"].get<std::string>(),
-                        f["place"].get<double>(), f["joints"][0].get<std::string>(),
-                        f["angles_deg"][0].get<double>(), held ? f["joints"][1].get<std::string>() : "",
+    text += fmt::format("{},{},{:.4g},{},{:.4f},{},{:g},{},{},{:g},{:.3f}\n",
+                        csv::cell(f["vessel"].get<std::string>()), f["kind"].get<std::string>(),
+                        f["value"].get<double>(), f["unit"].get<std::string>(), f["place"].get<double>(),
+                        f["joints"][0].get<std::string>(), f["angles_deg"][0].get<double>(),
+                        held ? f["joints"][1].get<std::string>() : "",
                         held ? fmt::format("{:g}", f["angles_deg"][1].get<double>()) : "",
                         f["from_deg"].get<double>(), f["severity"].get<double>());
   }

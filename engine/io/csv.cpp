@@ -15,6 +15,12 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
+std::string cell(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
+  return out + "\"";
+}
+
 std::string quoted(std::string_view text) { return std::string("'").append(text).append("'"); }
 
 std::vector<std::string_view> split(std::string_view text, char separator) {

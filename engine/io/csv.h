@@ -12,6 +12,8 @@ namespace vasa::csv {
 
 std::string_view trimmed(std::string_view text);
 std::string quoted(std::string_view text);  ///< in single quotes, for messages
+/// A text as a cell of a table that is written for others (RFC 4180): in double quotes, those within doubled.
+std::string cell(std::string_view text);
 /// The parts of a text between separators, trimmed; empty parts are kept.
 std::vector<std::string_view> split(std::string_view text, char separator);
 

@@ -9,6 +9,7 @@
 #include "collide/tube_list.h"
 #include "core/atomic_file.h"
 #include "core/cancellation.h"
+#include "io/csv.h"
 #include "io/foreign_files.h"
 #include "io/swc.h"
 #include "io/vtp.h"
@@ -128,12 +129,6 @@ Result<Facts> exportLines(const Job& job, bool vtp) {
   });
 }
 
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
-  return out + "\"";
-}
-
 Result<Facts> exportMeasurements(const Job& job) {
   FrameMaker maker(job.scene, job.options.frame);
   VesselMeter meter(job.scene.network, job.options.clearance);
@@ -147,7 +142,7 @@ Result<Facts> exportMeasurements(const Job& job) {
     for (std::size_t v = 0; v < all.size(); ++v) {
       const Vessel& vessel = job.scene.network.vessels()[v];
       const VesselMeasures& m = all[v];
-      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", frame, time, v, quoted(vessel.name),
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", frame, time, v, csv::cell(vessel.name),
                           kindName(vessel.kind), m.length, m.volume, m.leastRadius, m.meanRadius,
                           m.greatestRadius, m.greatestCurvature,
                           m.clearance ? fmt::format("{}", *m.clearance) : std::string());

@@ -58,3 +58,15 @@ TEST_CASE("poses says what it does not know before it loads anything") {
   CHECK(outcome.exit == 2);
   CHECK(runProgram({"poses", "--shard", "0/2"}).exit == 2);
 }
+
+TEST_CASE("poses writes names into its table as they are, commas and quotes within") {
+  TemporaryFolder folder;
+  const auto edits = folder.path() / "names.vedit";
+  std::ofstream(edits) << "rename \"left popliteal artery\" \"artery, \\\"popliteal\\\"; left\"\n";
+  const auto outcome =
+      runProgram({"poses", "--ranges", shortRanges(folder), "--step", "30", "--strain", "1", "--edits",
+                  edits.string(), "--json", "-o", (folder.path() / "out").string()});
+  REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
+  CHECK(contentOf(folder.path() / "out" / "poses.csv").find("\n\"artery, \"\"popliteal\"\"; left\",") !=
+        std::string::npos);
+}
