@@ -93,6 +93,7 @@ std::string encodeObj(const AnimatedMesh& mesh) {
     std::string name = label < mesh.labels.size() ? mesh.labels[label].name : mesh.name;
     for (char& c : name)
       if (c == '\n' || c == '\r') c = ' ';
+    if (name.ends_with('\\')) name += ' ';  // else the next line would be part of the name
     text += "o " + name + '\n';
     if (label < mesh.labels.size() && !mesh.labels[label].kind.empty()) {
       std::string material = mesh.labels[label].kind;

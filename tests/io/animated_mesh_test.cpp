@@ -87,3 +87,14 @@ TEST_CASE("an OBJ has an object a vessel and is read back the same") {
   CHECK((*elements)[1].mesh.triangles.size() == 1);
   CHECK((*elements)[1].mesh.positions[1] == vec3(1, 1, 0.25f));
 }
+
+TEST_CASE("an OBJ's name that ends with a backslash does not swallow what comes after it") {
+  const TemporaryFolder folder;
+  AnimatedMesh mesh = sample();
+  mesh.labels[0].name = "artery\\";
+  const std::string text = encodeObj(mesh);
+  const auto elements = readObj(write(folder, "a.obj", std::as_bytes(std::span(text))));
+  if (!elements.ok()) FAIL(elements.error().message);
+  CHECK((*elements)[0].name == "artery\\");
+  CHECK((*elements)[0].surroundings == std::vector<std::string>{"artery"});
+}
