@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "core/utf8.h"
 #include "io/base64.h"
 #include "io/png.h"
 #include "plate/sheet.h"
@@ -14,11 +16,15 @@ std::string colourText(vec3 colour) {
   return fmt::format("#{:02x}{:02x}{:02x}", byte(colour.x), byte(colour.y), byte(colour.z));
 }
 
-// What XML forbids is left out, the five marks are named.
+// What XML forbids is left out, bytes that are no UTF-8 among it; the five marks are named.
 std::string escapedXml(std::string_view text) {
   std::string out;
-  for (const char c : text) {
-    switch (c) {
+  while (!text.empty()) {
+    const Utf8Character character = utf8At(text);
+    const std::string_view bytes = text.substr(0, std::max<std::size_t>(character.bytes, 1));
+    text.remove_prefix(bytes.size());
+    if (character.bytes == 0 || character.code == 0xfffe || character.code == 0xffff) continue;
+    switch (character.code) {
       case '&':
         out += "&amp;";
         break;
@@ -35,7 +41,7 @@ std::string escapedXml(std::string_view text) {
         out += "&#39;";
         break;
       default:
-        if (static_cast<unsigned char>(c) >= 0x20) out += c;
+        if (character.code >= 0x20) out += bytes;
     }
   }
   return out;

@@ -68,6 +68,11 @@ TEST_CASE("a sheet as SVG: structure, names, and nothing that XML would trip ove
   CHECK(has(*svg, R"(text-anchor="end")"));
   CHECK(has(*svg, ">Vène ½</text>"));
   CHECK(svg->ends_with("</svg>\n"));
+  Sheet odd = example();
+  odd.title = "a\xe9 b\x01 <\xef\xbf\xbf\xc3\xa9";  // Latin-1, a control character, U+FFFF: none is XML
+  const auto plain = sheetSvg(odd, *type);
+  REQUIRE(plain.ok());
+  CHECK(has(*plain, "<title>a b &lt;é</title>"));
 }
 
 TEST_CASE("a sheet as PDF: every object is where the table says, and streams are as long as they say") {
