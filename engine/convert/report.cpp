@@ -70,11 +70,14 @@ void doubt(ElementReport& report, float radius, const TriangleMesh& mesh) {
       (!flat && radius >= kThinnestVessel && radius <= kWidestVessel))
     return;
   report.status = ElementStatus::doubtful;
-  append(report.reason, flat ? "its surface is flat, as no vessel's is: a sheet, or a vessel's cut end"
-                        : radius > kWidestVessel
-                            ? "its mean radius of " + std::to_string(int(std::lround(1000 * radius))) +
-                                  " mm is that of no vessel: a solid or a chamber, or another unit (--unit)"
-                            : "it is thinner than any vessel that a mesh shows: another unit? (--unit)");
+  append(report.reason,
+         flat ? "its surface is flat, as no vessel's is: a sheet, or a vessel's cut end"
+         : radius > kWidestVessel
+             ? "its mean radius of " + std::to_string(int(std::lround(1000 * radius))) +
+                   " mm is that of no vessel: a solid or a chamber, or another unit (--unit)"
+             : "its mean radius of " + std::to_string(int(std::lround(1e6f * radius))) +
+                   " um is less than the 50 um at which surfaces are followed, and is told as that: "
+                   "another unit (--unit)? Centre lines keep their radii");
 }
 
 ElementReport reportElement(const Assembly& assembly, const SourceElement& source, std::uint32_t index,

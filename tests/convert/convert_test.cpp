@@ -111,3 +111,13 @@ TEST_CASE("what is too wide for any vessel is doubtful, with what may be the mat
   CHECK(made->report.summary.ok == 1);
   CHECK(made->report.summary.doubtful == 1);
 }
+
+TEST_CASE("what is thinner than surfaces are followed at is doubtful, as its radii are raised") {
+  std::vector<SourceElement> elements{source("arteriole", tubeBetween({0, 0, 0}, {0, 2e-3f, 0}, 3e-5f)),
+                                      source("artery", tubeBetween({1, 0, 0}, {1, 4e-3f, 0}, 7e-5f))};
+  const auto made = convertElements(elements);
+  REQUIRE(made.ok());
+  CHECK(made->report.elements[0].status == ElementStatus::doubtful);
+  CHECK(made->report.elements[0].reason.find("50 um") != std::string::npos);
+  CHECK(made->report.elements[1].status == ElementStatus::ok);
+}
