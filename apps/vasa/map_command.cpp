@@ -52,22 +52,22 @@ std::string mapText(const Body& body, const Motion& motion, const Pairing& pairi
     bool any = false;
     for (std::uint32_t j = 0; j < joints.size(); ++j) {
       if (pairing.joints.source[j] != m || shareOf(pairing, j)) continue;
-      text += fmt::format("{} = {}", motion.joints[m].name, joints[j].name);
+      text += fmt::format("{} = {}", jointMapName(motion.joints[m].name), jointMapName(joints[j].name));
       text += pairing.bodyParts.of[j].empty() ? "\n" : fmt::format("  # {}\n", pairing.bodyParts.of[j]);
       any = true;
     }
-    if (!any) text += fmt::format("# {} =\n", motion.joints[m].name);
+    if (!any) text += fmt::format("# {} =\n", jointMapName(motion.joints[m].name));
   }
   if (!pairing.joints.spread.shares.empty())
     text +=
         "# Joints of the body's trunk, which has more or fewer than the motion's: each takes shares of two.\n";
   for (const TrunkShare& own : pairing.joints.spread.shares)
-    text +=
-        fmt::format("#   {}: {:.0f} % of {}, {:.0f} % of {}\n", joints[own.joint].name, 100 * (1 - own.share),
-                    motion.joints[own.low].name, 100 * own.share, motion.joints[own.high].name);
+    text += fmt::format("#   {}: {:.0f} % of {}, {:.0f} % of {}\n", visible(joints[own.joint].name),
+                        100 * (1 - own.share), visible(motion.joints[own.low].name), 100 * own.share,
+                        visible(motion.joints[own.high].name));
   text += "# Joints of the body that follow nothing, and go with the one before them:\n";
   for (std::size_t j = 0; j < joints.size(); ++j)
-    if (pairing.joints.source[j] == JointId::kNone) text += fmt::format("#   {}\n", joints[j].name);
+    if (pairing.joints.source[j] == JointId::kNone) text += fmt::format("#   {}\n", visible(joints[j].name));
   return text;
 }
 

@@ -23,9 +23,11 @@ Result<Motion> parseBvh(std::string_view text, const std::string& name);
 
 /// Pairs of joints, a line each: `motion's joint = body's joint`; nothing on the right leaves the joint out;
 /// what follows a # at a line's beginning or after a blank is a comment. Names that hold a = want blanks
-/// around the line's own. No joint is on either side twice. At most 1 MiB. Fails with badInput, naming file
-/// and line.
+/// around the line's own; one in double quotes stands as it is, but for \", \\ and \n. No joint is on either
+/// side twice. At most 1 MiB. Fails with badInput, naming file and line.
 Result<JointMap> readJointMap(const std::filesystem::path& path);
 Result<JointMap> parseJointMap(std::string_view text, const std::string& name);
+/// A name for a line of a joint map: in double quotes where it would not be read back otherwise.
+std::string jointMapName(std::string_view name);
 
 }  // namespace vasa

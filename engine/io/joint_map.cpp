@@ -1,4 +1,5 @@
 #include <map>
+#include <optional>
 
 #include "core/atomic_file.h"
 #include "core/text_file.h"
@@ -24,7 +25,35 @@ std::size_t signIn(std::string_view line) {
   return between == line.npos ? line.find('=') : between + 1;
 }
 
+// A name in double quotes at the beginning of a text, which then is what comes after it.
+std::optional<std::string> takeQuoted(std::string_view& text) {
+  if (!text.starts_with('"')) return std::nullopt;
+  std::string name;
+  for (std::size_t i = 1; i < text.size(); ++i) {
+    if (text[i] == '"') {
+      text = csv::trimmed(text.substr(i + 1));
+      return name;
+    }
+    const bool marked = text[i] == '\\' && i + 1 < text.size();
+    if (marked) ++i;
+    name += marked && text[i] == 'n' ? '\n' : text[i];
+  }
+  return std::nullopt;
+}
+
 }  // namespace
+
+std::string jointMapName(std::string_view name) {
+  const bool plain = csv::trimmed(name) == name && withoutComment(name) == name && !name.starts_with('"') &&
+                     !name.starts_with('=') && name.find(" = ") == name.npos && name.find('\n') == name.npos;
+  if (plain) return std::string(name);
+  std::string text = "\"";
+  for (const char c : name) {
+    if (c == '"' || c == '\\') text += '\\';
+    text += c == '\n' ? "\\n" : std::string(1, c);
+  }
+  return text + "\"";
+}
 
 Result<JointMap> readJointMap(const std::filesystem::path& path) {
   const auto bytes = readFile(path, kMaximumMapBytes);
@@ -41,14 +70,20 @@ Result<JointMap> parseJointMap(std::string_view text, const std::string& name) {
   std::map<std::string, std::string> moverOf;  // of the body's joints
   for (std::size_t number = 1; !text.empty(); ++number) {
     std::string_view line = nextLine(text);
+    const std::string_view whole = line;
+    std::string_view right = csv::trimmed(line);
     line = csv::trimmed(withoutComment(line));
-    if (line.empty()) continue;
+    const auto quoted = takeQuoted(right);
+    const bool byQuotes = quoted && right.starts_with('=');
+    if (line.empty() && !byQuotes) continue;
     const std::size_t sign = signIn(line);
-    const std::string_view from = csv::trimmed(line.substr(0, sign));
     const std::string where = name + ":" + std::to_string(number) + ": ";
-    if (sign == line.npos || from.empty())
+    if (!byQuotes && (sign == line.npos || csv::trimmed(line.substr(0, sign)).empty()))
       return badInput(where + "a line must be `motion's joint = body's joint`");
-    const std::string joint(from), moved(csv::trimmed(line.substr(sign + 1)));
+    const std::string joint = byQuotes ? *quoted : std::string(csv::trimmed(line.substr(0, sign)));
+    std::string moved(csv::trimmed(byQuotes ? withoutComment(right.substr(1)) : line.substr(sign + 1)));
+    right = csv::trimmed(byQuotes ? right.substr(1) : whole.substr(signIn(whole) + 1));
+    if (const auto other = takeQuoted(right); other && withoutComment(right).empty()) moved = *other;
     if (!map.emplace(joint, moved).second)
       return badInput(where + "'" + joint +
                       "' is on the left twice; it can move one joint, so keep one line");

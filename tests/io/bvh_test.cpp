@@ -175,3 +175,21 @@ TEST_CASE("joint maps: names that hold signs, comments, and what says a joint tw
   CHECK(refusal("a =\nb =\n").empty());
   CHECK(refusal("= b\n").starts_with("m.txt:1: a line must be"));
 }
+
+TEST_CASE("joint maps: any name is read back as it is written") {
+  const std::vector<std::string> names{"Hips",  "#Hips",  "Head #1",    " Neck ", "a = b",   "=c",
+                                       "\"q\"", "back\\", "two\nlines", "\"",     "x # \"y", "hip#2"};
+  std::string text;
+  JointMap told;
+  for (const std::string& name : names) {
+    told[name] = name + " of #the body";
+    text += jointMapName(name) + " = " + jointMapName(told[name]) + "  # a part\n";
+  }
+  const auto map = parseJointMap(text, "m.txt");
+  REQUIRE_MESSAGE(map.ok(), map.error().message);
+  CHECK(*map == told);
+  CHECK(jointMapName("Left Leg") == "Left Leg");
+  const auto mixed = parseJointMap("\"a\" b = c\n\"d\" =\n# \"e\" = f\n\"g # h\" = i # j\n", "m.txt");
+  REQUIRE(mixed.ok());
+  CHECK(*mixed == JointMap{{"\"a\" b", "c"}, {"d", ""}, {"g # h", "i"}});
+}
