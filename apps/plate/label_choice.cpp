@@ -170,14 +170,28 @@ Result<std::vector<VesselId>> vesselsCalled(const Network& network, const std::s
   return partly;
 }
 
+// Where the name at the beginning of a list ends: at the first comma, or behind a vessel's whole name that
+// holds commas itself.
+std::size_t endOfName(const Network& network, const std::string& list, std::size_t at) {
+  const std::string rest = lowerCase(list.substr(at));
+  std::size_t end = std::min(rest.find(','), rest.size());
+  for (const Vessel& vessel : network.vessels()) {
+    if (vessel.name.size() <= end || vessel.name.find(',') == vessel.name.npos) continue;
+    if (!rest.starts_with(lowerCase(vessel.name))) continue;
+    const std::size_t next = std::min(rest.find_first_not_of(' ', vessel.name.size()), rest.size());
+    if (next == rest.size() || rest[next] == ',') end = next;
+  }
+  return at + end;
+}
+
 Result<LabelChoice> chooseByName(const Network& network, std::vector<VesselLabel> all,
                                  const std::string& list) {
   LabelChoice choice;
   for (std::size_t at = 0; at <= list.size();) {
-    const std::size_t end = std::min(list.find(',', at), list.size());
+    at = std::min(list.find_first_not_of(' ', at), list.size());
+    const std::size_t end = endOfName(network, list, at);
     std::string name = list.substr(at, end - at);
     at = end + 1;
-    name.erase(0, std::min(name.find_first_not_of(' '), name.size()));
     name.erase(name.find_last_not_of(' ') + 1);
     if (name.empty()) continue;
     const auto vessels = vesselsCalled(network, name);

@@ -32,7 +32,7 @@ struct LabelChoice {
 /// (VesselLabel::weight), a row of alike ones once ("Posterior intercostal arteries"), and no branch or
 /// companion that is named after a vessel with a label; "all-visible": all that are seen; else names with
 /// commas between them: whole ones, with or without "left" and "right", or else what several names have in
-/// them ("aorta": all its parts). Upper and lower case are alike.
+/// them ("aorta": all its parts). A whole name may hold commas itself. Upper and lower case are alike.
 struct LabelWishes {
   std::string which = "main";
   std::size_t most = 40;                   ///< of "main" and "all-visible"

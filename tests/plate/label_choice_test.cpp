@@ -133,6 +133,24 @@ TEST_CASE("names: with or without a side, a part of one, hidden ones told, unkno
   CHECK(several->unseen.empty());  // the second has its label already
 }
 
+TEST_CASE("names that hold commas are asked for as they are") {
+  NetworkBuilder builder;
+  for (const auto& [name, x] :
+       {std::pair{"artery, renal, left", 0.2f}, {"artery, renal", 0.0f}, {"a", -0.2f}})
+    builder.addVessel({name, "", VesselKind::artery}, line({x, 0.2f, 0}, {x, 1.4f, 0}, 0.01f));
+  const auto network = builder.build(1.7f);
+  REQUIRE_MESSAGE(network.ok(), network.error().message);
+  const SeenMap map = mapOf(*network);
+  const auto named = [&](const char* names) {
+    const auto choice = chooseLabels(*network, network->points(), map, {.which = names});
+    REQUIRE_MESSAGE(choice.ok(), choice.error().message);
+    return textsOf(*choice);
+  };
+  CHECK(named("a, Artery, renal, left") == Texts{"A", "Artery, renal, left"});
+  CHECK(named(" artery, renal ,a") == Texts{"Artery, renal", "A"});
+  CHECK(named(",, a,") == Texts{"A"});
+}
+
 TEST_CASE("no line points where none may, and only vessels of the page are chosen") {
   const Network network = figure();
   const auto choice = chooseLabels(network, network.points(), mapOf(network),
