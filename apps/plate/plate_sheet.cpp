@@ -127,8 +127,12 @@ Sheet plateSheet(const PlatePlan& plan, const PlateStyle& style, const Typesette
   float y = style.margin;
   if (!style.title.empty()) {
     y += kTitleStep * style.letters;
+    // One that is wider than the page gets smaller letters.
+    float size = kTitle * style.letters;
+    const float room = style.page.x - 2 * style.margin;
+    size *= room / std::max(type.widthOf(style.title, size, true), room);
     sheet.items.push_back(SheetText{.at = {style.margin, y},
-                                    .size = kTitle * style.letters,
+                                    .size = size,
                                     .bold = true,
                                     .colour = ink,
                                     .text = style.title,

@@ -99,6 +99,23 @@ TEST_CASE("a sheet as PDF: every object is where the table says, and streams are
   CHECK(has(pdf, "/FontName /DejaVuSans-Bold"));
 }
 
+TEST_CASE("a title that is wider than its page gets smaller letters") {
+  const auto type = Typesetter::load();
+  REQUIRE(type.ok());
+  const auto widthOf = [&](const std::string& title) {
+    PlateStyle style{.legend = false, .scale = false};
+    style.title = title;
+    const auto image = std::make_shared<Image>(Image{1, 1, {0, 0, 0, 255}});
+    for (const auto& item : plateSheet({}, style, *type, image, {}).items)
+      if (const auto* words = std::get_if<SheetText>(&item); words && words->kind == "title")
+        return type->widthOf(words->text, words->size, true);
+    return 0.0f;
+  };
+  const float plain = type->widthOf("Thorax", 2.3f * PlateStyle{}.letters, true);
+  CHECK(widthOf("Thorax") == doctest::Approx(plain));
+  CHECK(widthOf(std::string(200, 'W')) <= doctest::Approx(190));
+}
+
 TEST_CASE("words are broken at blanks, in as few lines as the width takes") {
   const auto type = Typesetter::load();
   REQUIRE(type.ok());
