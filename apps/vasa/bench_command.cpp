@@ -115,6 +115,8 @@ std::string asText(const Report& report) {
 }
 
 Result<void> run(const Globals& globals, const Options& options) {
+  if (options.pairs == "-")
+    return Error{Fault::usage, "--pairs -: standard output has the times; name a file"};
   const auto list = readTubeList(options.tubes);
   if (!list) return list.error();
   const auto report = measure(*list, options);

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <sstream>
 
 #include "commands.h"
 #include "core/cancellation.h"
@@ -131,7 +132,15 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // help, version
+    if (error.get_exit_code() == 0) {  // help, version
+      std::ostringstream told;
+      app.exit(error, told, told);
+      if (const auto printed = printText(told.str()); !printed) {
+        logError(printed.error().message);
+        return int(printed.error().fault);
+      }
+      return 0;
+    }
     logError(usageMessage(app, error));
     return int(Fault::usage);
   }

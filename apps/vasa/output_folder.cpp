@@ -5,6 +5,10 @@ namespace vasa::cli {
 namespace fs = std::filesystem;
 
 Result<void> makeOutputFolder(const fs::path& folder) {
+  if (folder == "-" || folder.parent_path() == "-")
+    return Error{
+        Fault::usage,
+        "-o -: several files do not go to standard output; name a folder (./- where it is called so)"};
   std::error_code failed;
   fs::path missing = fs::absolute(folder, failed).lexically_normal();
   while (!failed && missing.has_relative_path() && !fs::exists(missing.parent_path(), failed))

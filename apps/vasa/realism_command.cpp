@@ -92,7 +92,7 @@ Report reportOf(const Scene& scene, const SceneFile& file, const Protocol& proto
 std::string asText(const Report& report) {
   std::string text;
   for (const Report& row : report["rows"]) {
-    const std::string name = fmt::format("{:<6}{:<30}{:<12}", row["id"].get<std::string>(),
+    const std::string name = fmt::format("{:<6}{:<30}{:<17}", row["id"].get<std::string>(),
                                          row["metric"].get<std::string>(), row["to_pose"].get<std::string>());
     if (row.contains("refusal")) {
       text += name + visible(row["refusal"].get<std::string>()) + "\n";

@@ -16,6 +16,8 @@ Result<TrackFile> TrackFile::open(const std::string& file, const Scene& scene, c
   track.track_ = options.track =
       std::make_shared<MotionTrack>(file.empty() ? without : MotionTrack::Keeps::all);
   if (file.empty()) return track;
+  if (file == "-")
+    return Error{Fault::usage, "--track -: a track is read and kept, so it has to be a file; name one"};
   if (!clip) return Error{Fault::usage, "--track " + file + ": a track is of a motion; name one with --clip"};
   if (!options.avoid)
     return Error{Fault::usage,

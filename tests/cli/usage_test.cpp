@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "cli/program.h"
+#include "support/shared_data.h"
 
 using namespace vasa::test;
 
@@ -18,6 +19,31 @@ TEST_CASE("help and version succeed, on standard output") {
     const auto own = runProgram({command, "--help"});
     CHECK(own.exit == 0);
     CHECK(own.out.find("Examples") != std::string::npos);
+  }
+}
+
+TEST_CASE("help and version that cannot be written fail, as everything else does") {
+  for (const auto& arguments : std::vector<std::vector<std::string>>{
+           {"--version"}, {"--help"}, {"render", "--help"}, {"help"}, {"help", "plate"}}) {
+    const auto outcome = runProgram(arguments, {.standardOutput = "/dev/full"});
+    CHECK_MESSAGE(outcome.exit == 6, arguments.back());
+    CHECK(outcome.err.find("standard output") != std::string::npos);
+  }
+}
+
+TEST_CASE("what is no stream is not written to a file or a folder called -") {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "a.tubes") << "0 0\n";
+  for (const auto& arguments : std::vector<std::vector<std::string>>{
+           {"poses", "--joints", "elbow", "-o", "-"},
+           {"realism", "-o", "-"},
+           {"paper", "--quick", "-o", "-"},
+           {"bench", "collide", "--tubes", "a.tubes", "--pairs", "-"},
+           {"check", "--clip", "walk", "--frames", "0:0", "--track", "-"}}) {
+    const auto outcome = runProgram(arguments, {.folder = folder.path().string()});
+    CHECK_MESSAGE(outcome.exit == 2, arguments.front() << ": " << outcome.err);
+    CHECK_MESSAGE(outcome.err.find(" -: ") != std::string::npos, outcome.err);
+    CHECK_FALSE(std::filesystem::exists(folder.path() / "-"));
   }
 }
 
