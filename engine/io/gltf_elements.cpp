@@ -85,9 +85,15 @@ void takeApart(std::span<const Model::VesselLabel> labels, std::span<const std::
   std::vector<std::uint32_t> numbers(whole.mesh.positions.size(), kNone);  // in the element being made
   for (auto& [k, triangles] : own) {
     MeshElement element{whole.name, whole.category, whole.ontologyId, {}, whole.surroundings, {}, {}};
-    if (k < labels.size())
+    if (k < labels.size()) {
       element.name = labels[k].name, element.category = labels[k].kind,
       element.ontologyId = labels[k].ontologyId;
+      // The mesh's materials are those of all kinds.
+      if (!element.category.empty())
+        std::erase_if(element.surroundings, [&](const std::string& name) {
+          return std::ranges::find(whole.materials, name, &MeshMaterial::name) != whole.materials.end();
+        });
+    }
     std::vector<std::uint32_t> used;
     for (uvec3& t : triangles)
       for (int c = 0; c < 3; ++c) {

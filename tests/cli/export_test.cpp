@@ -42,6 +42,14 @@ TEST_CASE("export: an animated GLB within tolerance and budget, the same bytes f
   const auto summary = checkGltf(file);
   REQUIRE_MESSAGE(summary.ok(), summary.error().message);
   CHECK(summary->animations == 1);
+  // Names and kinds come back, portal veins and others apart.
+  const auto read = runProgram({"info", file, "--json"}).json()["element"],
+             own = runProgram({"info", humanVessels().string(), "--vessels", "--json"}).json()["vessel"];
+  REQUIRE(read.size() == own.size());
+  for (std::size_t v = 0; v < own.size(); ++v) {
+    CHECK(read[v]["name"] == own[v]["name"]);
+    CHECK_MESSAGE(read[v]["kind"] == own[v]["kind"], own[v]["name"]);
+  }
   exported({"--clip", "walk", "--frames", "3:8", "--quads", "4x2", "--threads", "1", "-o", again});
   CHECK(contentOf(file) == contentOf(again));
   // One key a frame strays farther between keys than more keys do.

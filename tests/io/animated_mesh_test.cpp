@@ -51,6 +51,8 @@ TEST_CASE("an animated mesh becomes a GLB that our own complete check takes, mov
     const MeshElement& element = (*elements)[k];
     CHECK(element.category == mesh.labels[k].kind);
     CHECK(element.ontologyId == mesh.labels[k].ontologyId);
+    // Not the other vessels' materials, by whose names its kind would be another.
+    CHECK(element.surroundings == std::vector<std::string>{"vessels"});
     REQUIRE(element.mesh.triangles == std::vector<uvec3>{{0, 1, 2}});
     for (int c = 0; c < 3; ++c)
       CHECK(element.mesh.positions[c] == mesh.positions[mesh.parts[k].triangles[0][c]]);
