@@ -181,7 +181,8 @@ VesselKind kindOf(const MeshElement& element, std::string_view fileName) {
     static constexpr std::array<std::string_view, 3> kPortal{" portal ", " portae ", "pfortader"};
     return hasAny(spaced(text), kPortal);
   };
-  const bool told = portal(element.name) || std::ranges::any_of(element.surroundings, portal);
+  const bool told =
+      portal(element.category) || portal(element.name) || std::ranges::any_of(element.surroundings, portal);
   return told ? VesselKind::portalVein : kind;
 }
 

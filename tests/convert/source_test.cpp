@@ -25,6 +25,7 @@ TEST_CASE("the kind comes from the category, else the element's name, else the f
   splenic.surroundings = {"portal_vein"};
   CHECK(kindOf(splenic, "body") == VesselKind::portalVein);
   CHECK(kindOf(named("left portal vein", "vein"), "x") == VesselKind::portalVein);
+  CHECK(kindOf(named("splenic", "portal vein"), "x") == VesselKind::portalVein);
   CHECK(kindOf(named("portal"), "x") == VesselKind::other);
   CHECK(kindOf(named("thoracic duct"), "x") == VesselKind::lymphatic);
   CHECK(kindOf(named("artery beside a vein"), "x") == VesselKind::other);
