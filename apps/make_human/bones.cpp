@@ -1,5 +1,7 @@
 #include "make_human/bones.h"
 
+#include <algorithm>
+
 #include "core/parallel.h"
 #include "make_human/form_surface.h"
 #include "make_human/polygonise.h"
@@ -10,9 +12,16 @@ namespace {
 constexpr float kOrganCell = 0.020f;  // [m] largest polygon of an organ
 constexpr float kLofted = 25;         // beside thin lofted plates distances come out many times too long
 
-// What is left is still dense enough that distances to a bone's vertices tell distances to the bone
+// How far thinning may move a bone's surface: no farther than its polygons depart from a curve of this
+// radius. What is left is still dense enough that distances to a bone's vertices tell distances to the bone
 // (body/bone_field.h).
-constexpr float kBoneError = 0.15e-3f;  // [m]
+constexpr float kCurve = 5.5e-3f, kMostError = 0.15e-3f;  // [m]
+
+float thinningError(const BoneForm& form) {
+  float cell = 0;  // the largest: a skull is no finer for its sutures
+  for (const BonePiece& piece : form.pieces) cell = std::max(cell, piece.cell);
+  return std::min(cell * cell / (8 * kCurve), kMostError);
+}
 
 struct Tissue {
   const char* name;
@@ -51,7 +60,8 @@ void addFreeForm(SkinnedMesh& to, const Shape& shape, const Rig& rig) {
 
 std::vector<SkinnedMesh> makeBones(const std::vector<BoneForm>& forms, const Rig& rig) {
   std::vector<FormSurface> surfaces(forms.size());
-  parallelFor(forms.size(), 1, [&](std::size_t i) { surfaces[i] = surfaceOf(forms[i], kBoneError); });
+  parallelFor(forms.size(), 1,
+              [&](std::size_t i) { surfaces[i] = surfaceOf(forms[i], thinningError(forms[i])); });
   std::vector<SkinnedMesh> meshes;
   for (const Tissue& tissue : kTissues) {
     SkinnedMesh& mesh = meshes.emplace_back();

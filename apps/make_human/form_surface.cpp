@@ -15,7 +15,7 @@ namespace {
 constexpr float kCertain = 3;           // distances to a form's pieces are off by less than this factor
 constexpr float kFineReach = 1.3f;      // how far beyond a leaf a piece's wish for fine polygons counts
 constexpr float kLargestCell = 16e-3f;  // [m] largest polygon
-constexpr float kKeptShare = 0.5f;      // of the triangles
+constexpr float kKeptShare = 0.3f;      // of the triangles, at least
 
 /// Takes out pairs of triangles that lie on one another back to back: what is left of a fold.
 void dropFolds(std::vector<uvec3>& triangles) {

@@ -1,5 +1,8 @@
 #include "make_human/glb.h"
 
+#include <algorithm>
+#include <span>
+
 #include "io/glb_writer.h"
 
 namespace vasa::human {
@@ -7,6 +10,34 @@ namespace {
 
 using gltf::GlbWriter;
 using Json = GlbWriter::Json;
+
+constexpr std::size_t kMostVertices = 65535;  // that indices of 16 bits tell apart
+
+/// A place between two solids of a mesh: no triangle from here on has a vertex before it.
+struct Cut {
+  std::size_t triangle = 0, vertex = 0;
+};
+
+/// Where to cut a mesh of many solids, one after another, for parts of few enough vertices; its ends, too.
+std::vector<Cut> cutsOf(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> least(mesh.triangles.size());  // of all triangles from each one on
+  std::uint32_t low = std::uint32_t(mesh.positions.size());
+  for (std::size_t i = mesh.triangles.size(); i-- > 0;) {
+    const uvec3 t = mesh.triangles[i];
+    least[i] = low = std::min({low, t.x, t.y, t.z});
+  }
+  std::vector<Cut> cuts{{}};
+  Cut last;  // the last place that may be cut
+  std::size_t end = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (least[i] >= end) last = {i, end};
+    const uvec3 t = mesh.triangles[i];
+    end = std::max({end, std::size_t(t.x) + 1, std::size_t(t.y) + 1, std::size_t(t.z) + 1});
+    if (end - cuts.back().vertex > kMostVertices && last.vertex > cuts.back().vertex) cuts.push_back(last);
+  }
+  cuts.push_back({mesh.triangles.size(), mesh.positions.size()});
+  return cuts;
+}
 
 class BodyWriter {
  public:
@@ -35,31 +66,16 @@ class BodyWriter {
   }
 
   void addMesh(const SkinnedMesh& mesh) {
-    std::vector<glm::u8vec4> joints;
-    std::vector<vec4> weights;
-    bool rigid = true;
-    for (const SkinInfluence& influence : mesh.influences) {
-      joints.emplace_back(influence.joints[0], influence.joints[1], influence.joints[2], influence.joints[3]);
-      weights.push_back(influence.weights);
-      rigid = rigid && influence.weights == vec4(1, 0, 0, 0);
-    }
-    Json attributes;
-    attributes["POSITION"] = file_.add(mesh.mesh.positions, GlbWriter::vertices, true);
-    attributes["NORMAL"] = file_.add(mesh.normals, GlbWriter::vertices);
-    attributes["JOINTS_0"] = file_.add(joints, GlbWriter::vertices);
-    if (rigid) {  // a quarter of the bytes
-      attributes["WEIGHTS_0"] =
-          file_.add(std::vector<glm::u8vec4>(weights.size(), {255, 0, 0, 0}), GlbWriter::vertices);
-      file_.root["accessors"].back()["normalized"] = true;
-    } else {
-      attributes["WEIGHTS_0"] = file_.add(weights, GlbWriter::vertices);
-    }
-    const std::size_t indices = file_.add(mesh.mesh.triangles);
+    const std::size_t material = addMaterial(mesh);
+    Json primitives = Json::array();
+    const std::vector<Cut> cuts = cutsOf(mesh.mesh);
+    for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
+      primitives.push_back(
+          {{"attributes", attributesOf(mesh, cuts[i].vertex, cuts[i + 1].vertex - cuts[i].vertex)},
+           {"indices", indicesOf(mesh.mesh, cuts[i], cuts[i + 1])},
+           {"material", material}});
     Json& meshes = file_.root["meshes"];
-    meshes.push_back({{"name", mesh.name},
-                      {"primitives", Json::array({{{"attributes", attributes},
-                                                   {"indices", indices},
-                                                   {"material", addMaterial(mesh)}}})}});
+    meshes.push_back({{"name", mesh.name}, {"primitives", primitives}});
     sceneNodes_.push_back(file_.root["nodes"].size());
     file_.root["nodes"].push_back({{"name", mesh.name}, {"mesh", meshes.size() - 1}, {"skin", 0}});
   }
@@ -90,6 +106,37 @@ class BodyWriter {
   }
 
  private:
+  Json attributesOf(const SkinnedMesh& mesh, std::size_t first, std::size_t count) {
+    std::vector<glm::u8vec4> joints;
+    std::vector<vec4> weights;
+    bool rigid = true;
+    for (const SkinInfluence& influence : std::span(mesh.influences).subspan(first, count)) {
+      joints.emplace_back(influence.joints[0], influence.joints[1], influence.joints[2], influence.joints[3]);
+      weights.push_back(influence.weights);
+      rigid = rigid && influence.weights == vec4(1, 0, 0, 0);
+    }
+    Json attributes;
+    attributes["POSITION"] =
+        file_.add(std::span(mesh.mesh.positions).subspan(first, count), GlbWriter::vertices, true);
+    attributes["NORMAL"] = file_.add(std::span(mesh.normals).subspan(first, count), GlbWriter::vertices);
+    attributes["JOINTS_0"] = file_.add(joints, GlbWriter::vertices);
+    if (rigid) {  // a quarter of the bytes
+      attributes["WEIGHTS_0"] =
+          file_.add(std::vector<glm::u8vec4>(weights.size(), {255, 0, 0, 0}), GlbWriter::vertices);
+      file_.root["accessors"].back()["normalized"] = true;
+    } else {
+      attributes["WEIGHTS_0"] = file_.add(weights, GlbWriter::vertices);
+    }
+    return attributes;
+  }
+
+  std::size_t indicesOf(const TriangleMesh& mesh, const Cut& from, const Cut& to) {
+    std::vector<uvec3> triangles(mesh.triangles.begin() + std::ptrdiff_t(from.triangle),
+                                 mesh.triangles.begin() + std::ptrdiff_t(to.triangle));
+    for (uvec3& t : triangles) t -= std::uint32_t(from.vertex);
+    return file_.add(triangles);
+  }
+
   std::size_t addMaterial(const SkinnedMesh& mesh) {
     const vec4 c = mesh.colour;
     Json material = {
