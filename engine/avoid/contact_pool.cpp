@@ -18,8 +18,6 @@ namespace {
 
 constexpr float kCompliance = 1e-3f;           // α as a share of a·g
 constexpr float kOverRelaxation = 1.3f;        // ω: 1.2 to 1.6 settle more in as many sweeps than 1 does
-constexpr unsigned kPlainSweeps = 5;           // at the end: between walls an over-relaxed step goes too far
-constexpr float kSettled = 1e-6f;              // [m] a step that moves a place by less is not made
 constexpr float kClearanceShare = 0.02f;       // of the sum of the radii
 constexpr float kLeastClearance = 1e-5f;       // [m]
 constexpr float kBoneClearance = 1e-4f;        // [m]
@@ -28,7 +26,7 @@ constexpr float kSameDirection = 0.98f;        // ... if their normals are about
 constexpr float kSameWay = 0.7f;               // ... of a bone, whose planes turn
 constexpr float kUnsure = 0.5f, kSure = 0.8f;  // of a side at rest (RestSides::carried)
 constexpr float kSameSide = 0.5f;              // cosine between a gap and what the last one has become
-constexpr float kNegligible = 2e-6f;           // [m] of violation
+constexpr float kNegligible = 2e-6f;           // [m] of violation, and of a step that moves a place
 constexpr float kLeastDiagonal = 1e-4f;        // below it nothing that may move can mend the place
 // How far a multiplier may push on its own: times what is lacking and the radii.
 constexpr float kReach = 10;
@@ -263,14 +261,15 @@ void ContactPool::push(const Constraint& constraint, Vector force, std::span<Vec
 }
 
 // Returns how far that moved the place.
-float ContactPool::ascend(Constraint& constraint, float relaxation) {
+float ContactPool::ascend(Constraint& constraint) {
   const vec3 motion(motionOf<vec4>(constraint, z_));
   const float diagonal = constraint.row.diagonal,
               present = constraint.start + glm::dot(constraint.normal, motion);
   const float lack = constraint.distance - present - kCompliance * diagonal * constraint.multiplier;
-  const float step = std::clamp(relaxation * lack / ((1 + kCompliance) * diagonal), -constraint.multiplier,
-                                std::max(constraint.limit - constraint.multiplier, 0.0f));
-  if (std::abs(step) * diagonal < kSettled) return 0;
+  const float step =
+      std::clamp(kOverRelaxation * lack / ((1 + kCompliance) * diagonal), -constraint.multiplier,
+                 std::max(constraint.limit - constraint.multiplier, 0.0f));
+  if (std::abs(step) * diagonal < kNegligible) return 0;
   constraint.multiplier += step;
   push<vec4>(constraint, vec4(step * constraint.normal, 0), z_);
   return std::abs(step) * diagonal;
@@ -281,8 +280,7 @@ void ContactPool::ascend(unsigned sweeps, float still, std::span<vec3> z) {
   std::ranges::transform(z, z_.begin(), [](vec3 own) { return vec4(own, 0); });
   for (unsigned sweep = 0; sweep < sweeps; ++sweep) {
     float largest = 0;
-    const float relaxation = sweep + kPlainSweeps < sweeps ? kOverRelaxation : 1;
-    for (Constraint& constraint : constraints_) largest = std::max(largest, ascend(constraint, relaxation));
+    for (Constraint& constraint : constraints_) largest = std::max(largest, ascend(constraint));
     if (largest == 0) break;
   }
   for (std::size_t v = 0; v < z.size(); ++v)

@@ -65,7 +65,7 @@ class ContactPool {
   void refresh(std::span<const Bezier> shape, std::span<const vec3> z);
 
   /// Dual coordinate ascent (Hildreth 1957): sweeps over all constraints until none moves its place by a
-  /// micrometre; a lack of less is left.
+  /// few micrometres; a lack of less is left.
   /// @param still  [m] variables that it would change by no more stay what they are, to the bit
   void ascend(unsigned sweeps, float still, std::span<vec3> z);
 
@@ -94,7 +94,7 @@ class ContactPool {
   template <class Vector>
   Vector motionOf(const Constraint& constraint, std::span<const Vector> z) const;
   void sortIn(std::size_t before);
-  float ascend(Constraint& constraint, float relaxation);
+  float ascend(Constraint& constraint);
 
   const MotionSpace* space_;
   const Interference* interference_;

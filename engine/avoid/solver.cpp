@@ -29,9 +29,6 @@ constexpr float kDeepest = 0.5f;
 // without a bound on the first it has a jump of 16 mm.
 constexpr float kDeepestInBone = 1.5f, kDeepestUnsure = 1, kLeastRadius = 1e-3f;
 constexpr float kSureOfBone = 0.8f;  // cosine of the two ways: 37 degrees
-// [m] of what has got caught that starts anew with it first, at its pace. With 0 the scanned body's punch
-// stays caught.
-constexpr float kHere = 0.005f;
 constexpr float kNoLimit = Correction::kNoLimit;
 
 std::uint32_t tubesOf(std::span<const BoneContact> contacts, const auto& counts) {
@@ -268,10 +265,6 @@ void Avoider::State::giveWay(const Input& in, bool isLast) {
 void Avoider::State::solve(const Input& in, bool isLast) {
   separate(in);
   if (isLast) look(in, in.points, Look::certain);
-  if (isLast && !remaining.empty()) {
-    separate(in);
-    look(in, in.points, Look::certain);
-  }
 }
 
 // The vessels that are in trouble, and those within reach of the places.
@@ -303,13 +296,14 @@ void Avoider::State::chooseAnew(std::span<const vec4> points, float reach) {
 
 // Vessels that got caught, as where one limb goes through another, start from the pose as it is and go to the
 // sides of one another and of bones on which they were at rest. That is kept where it leaves less trouble.
-// With what lies here they keep the pace; with more, none where vessels interfere: better a jump than a wrong
+// With what lies near they keep the pace; with all, none where vessels interfere: better a jump than a wrong
 // shape.
 void Avoider::State::solveAnew(const Input& in, bool isLast, float reach) {
   const Correction tried = correction;
   const Trouble before = trouble();
   chooseAnew(in.points, reach);
-  unpaced = !remaining.empty() && reach > kHere ? std::span<const char>(anewPoints) : std::span<const char>();
+  unpaced =
+      !remaining.empty() && reach == kNoLimit ? std::span<const char>(anewPoints) : std::span<const char>();
   comeAlong(in);
   for (std::size_t p = 0; p < anewPoints.size(); ++p) {
     if (!anewPoints[p]) continue;
@@ -442,7 +436,6 @@ std::optional<AvoidReport> Avoider::step(const PosedVessels& posed, const Volume
   state.solve(in, stride.isLast);
   if (!stride.atAnyLength && state.halvesMayHelp()) return refuse();
   state.giveWay(in, stride.isLast);
-  if (state.isInTrouble()) state.solveAnew(in, stride.isLast, kHere);
   if (state.isInTrouble()) state.solveAnew(in, stride.isLast, kNearPace);
   if (!state.remaining.empty()) state.solveAnew(in, stride.isLast, kNoLimit);
   report.addTimes(std::exchange(state.refused, {}));

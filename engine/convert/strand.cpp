@@ -173,20 +173,27 @@ void StrandGraph::removeHooks() {
   for (const Joint& joint : joints)
     if (joint.host) hosted[*joint.host].push_back(joint.place);
   for (std::size_t s = 0; s < strands.size(); ++s) {
+    const Sections& all = strands[s].sections;
     Sections kept;
-    for (const vec4& section : strands[s].sections) {
+    for (const vec4& section : all) {
       const auto turnsBack = [&] {
         if (kept.size() < 2) return false;
         const vec4 last = kept.back();
         const vec3 before = vec3(last) - vec3(kept[kept.size() - 2]), after = vec3(section) - vec3(last);
-        return glm::dot(before, after) < 0 && glm::length(before + after) > kTinyStep * last.w &&
+        return glm::dot(before, after) < 0 &&
                std::max(glm::length(before), glm::length(after)) < 2 * last.w &&
                std::ranges::none_of(hosted[s],
                                     [&](vec3 place) { return glm::distance(place, vec3(last)) < last.w; });
       };
-      while (turnsBack()) kept.pop_back();
+      bool turned = false;
+      while (turnsBack()) kept.pop_back(), turned = true;
+      if (turned && glm::distance(vec3(kept.back()), vec3(section)) < kTinyStep * section.w) {
+        if (kept.size() == 1) continue;
+        kept.pop_back();
+      }
       kept.push_back(section);
     }
+    if (kept.size() < 2 || kept.back() != all.back()) continue;  // nothing but a hook
     strands[s].sections = std::move(kept);
   }
 }
