@@ -170,17 +170,20 @@ Result<std::vector<VesselId>> vesselsCalled(const Network& network, const std::s
   return partly;
 }
 
-// Where the name at the beginning of a list ends: at the first comma, or behind a vessel's whole name that
-// holds commas itself.
+// Where the name at the beginning of a list ends: at the first comma, or behind a vessel's whole name, with
+// or without its side, that holds commas itself.
 std::size_t endOfName(const Network& network, const std::string& list, std::size_t at) {
   const std::string rest = lowerCase(list.substr(at));
   std::size_t end = std::min(rest.find(','), rest.size());
-  for (const Vessel& vessel : network.vessels()) {
-    if (vessel.name.size() <= end || vessel.name.find(',') == vessel.name.npos) continue;
-    if (!rest.starts_with(lowerCase(vessel.name))) continue;
-    const std::size_t next = std::min(rest.find_first_not_of(' ', vessel.name.size()), rest.size());
+  if (end == rest.size()) return at + end;
+  const LabelNames names(network);
+  const auto tryName = [&](const std::string& name) {
+    if (name.size() <= end || name.find(',') == name.npos || !rest.starts_with(lowerCase(name))) return;
+    const std::size_t next = std::min(rest.find_first_not_of(' ', name.size()), rest.size());
     if (next == rest.size() || rest[next] == ',') end = next;
-  }
+  };
+  for (std::uint32_t v = 0; v < network.vessels().size(); ++v)
+    tryName(network.vessels()[v].name), tryName(names.of({v}));
   return at + end;
 }
 

@@ -5,7 +5,7 @@ namespace vasa::cli {
 namespace fs = std::filesystem;
 
 Result<void> makeOutputFolder(const fs::path& folder) {
-  if (folder == "-" || folder.parent_path() == "-")
+  if (folder == "-")
     return Error{
         Fault::usage,
         "-o -: several files do not go to standard output; name a folder (./- where it is called so)"};

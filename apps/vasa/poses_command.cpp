@@ -248,8 +248,8 @@ std::string asCsv(const Report& findings) {
     text += fmt::format("{},{},{:.4g},{},{:.4f},{},{:g},{},{},{:g},{:.3f}\n",
                         csv::cell(f["vessel"].get<std::string>()), f["kind"].get<std::string>(),
                         f["value"].get<double>(), f["unit"].get<std::string>(), f["place"].get<double>(),
-                        f["joints"][0].get<std::string>(), f["angles_deg"][0].get<double>(),
-                        held ? f["joints"][1].get<std::string>() : "",
+                        csv::cell(f["joints"][0].get<std::string>()), f["angles_deg"][0].get<double>(),
+                        held ? csv::cell(f["joints"][1].get<std::string>()) : "",
                         held ? fmt::format("{:g}", f["angles_deg"][1].get<double>()) : "",
                         f["from_deg"].get<double>(), f["severity"].get<double>());
   }
@@ -314,6 +314,7 @@ Result<void> run(const Globals& globals, const Options& options) {
                   options.tissue.noSlide, files.hash(), hashOf(scene->network.points()));
   const fs::path folder = options.output;
   if (!options.output.empty()) {
+    if (auto made = makeOutputFolder(folder); !made) return made;
     if (auto made = makeOutputFolder(folder / "rays"); !made) return made;
   }
   PoseWork work(*scene, options, std::move(*rays),

@@ -76,8 +76,8 @@ void doubt(ElementReport& report, float radius, const TriangleMesh& mesh) {
              ? "its mean radius of " + std::to_string(int(std::lround(1000 * radius))) +
                    " mm is that of no vessel: a solid or a chamber, or another unit (--unit)"
              : "its mean radius of " + std::to_string(int(std::lround(1e6f * radius))) +
-                   " um is less than the 50 um at which surfaces are followed, and is told as that: "
-                   "another unit (--unit)? Centre lines keep their radii");
+                   " um is less than the " + std::to_string(int(std::lround(1e6f * kThinnestVessel))) +
+                   " um to which sections are raised: another unit (--unit)? Centre lines keep their radii");
 }
 
 ElementReport reportElement(const Assembly& assembly, const SourceElement& source, std::uint32_t index,

@@ -176,19 +176,21 @@ void StrandGraph::removeHooks() {
     const Sections& all = strands[s].sections;
     Sections kept;
     for (const vec4& section : all) {
+      const auto carries = [&](vec4 at) {
+        return std::ranges::any_of(hosted[s],
+                                   [&](vec3 place) { return glm::distance(place, vec3(at)) < at.w; });
+      };
       const auto turnsBack = [&] {
         if (kept.size() < 2) return false;
         const vec4 last = kept.back();
         const vec3 before = vec3(last) - vec3(kept[kept.size() - 2]), after = vec3(section) - vec3(last);
         return glm::dot(before, after) < 0 &&
-               std::max(glm::length(before), glm::length(after)) < 2 * last.w &&
-               std::ranges::none_of(hosted[s],
-                                    [&](vec3 place) { return glm::distance(place, vec3(last)) < last.w; });
+               std::max(glm::length(before), glm::length(after)) < 2 * last.w && !carries(last);
       };
       bool turned = false;
       while (turnsBack()) kept.pop_back(), turned = true;
       if (turned && glm::distance(vec3(kept.back()), vec3(section)) < kTinyStep * section.w) {
-        if (kept.size() == 1) continue;
+        if (kept.size() == 1 || carries(kept.back())) continue;
         kept.pop_back();
       }
       kept.push_back(section);

@@ -44,8 +44,9 @@ std::optional<std::string> takeQuoted(std::string_view& text) {
 }  // namespace
 
 std::string jointMapName(std::string_view name) {
-  const bool plain = csv::trimmed(name) == name && withoutComment(name) == name && !name.starts_with('"') &&
-                     !name.starts_with('=') && name.find(" = ") == name.npos && name.find('\n') == name.npos;
+  const bool plain = !name.empty() && csv::trimmed(name) == name && withoutComment(name) == name &&
+                     !name.starts_with('"') && !name.starts_with('=') && !name.ends_with(" =") &&
+                     name.find(" = ") == name.npos && name.find('\n') == name.npos;
   if (plain) return std::string(name);
   std::string text = "\"";
   for (const char c : name) {
@@ -70,8 +71,8 @@ Result<JointMap> parseJointMap(std::string_view text, const std::string& name) {
   std::map<std::string, std::string> moverOf;  // of the body's joints
   for (std::size_t number = 1; !text.empty(); ++number) {
     std::string_view line = nextLine(text);
-    const std::string_view whole = line;
-    std::string_view right = csv::trimmed(line);
+    const std::string_view whole = csv::trimmed(line);
+    std::string_view right = whole;
     line = csv::trimmed(withoutComment(line));
     const auto quoted = takeQuoted(right);
     const bool byQuotes = quoted && right.starts_with('=');
@@ -82,7 +83,7 @@ Result<JointMap> parseJointMap(std::string_view text, const std::string& name) {
       return badInput(where + "a line must be `motion's joint = body's joint`");
     const std::string joint = byQuotes ? *quoted : std::string(csv::trimmed(line.substr(0, sign)));
     std::string moved(csv::trimmed(byQuotes ? withoutComment(right.substr(1)) : line.substr(sign + 1)));
-    right = csv::trimmed(byQuotes ? right.substr(1) : whole.substr(signIn(whole) + 1));
+    right = csv::trimmed(byQuotes ? right.substr(1) : whole.substr(sign + 1));
     if (const auto other = takeQuoted(right); other && withoutComment(right).empty()) moved = *other;
     if (!map.emplace(joint, moved).second)
       return badInput(where + "'" + joint +

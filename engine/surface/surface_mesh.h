@@ -11,7 +11,7 @@ namespace vasa {
 struct SurfaceMesh {
   std::vector<vec3> positions, normals;  ///< one a vertex [m], unit
   /// Counter-clockwise seen from outside. A triangle belongs to its first vertex's vessel, so that each
-  /// vessel begins and ends with whole rings.
+  /// vessel begins and ends with whole rings; where three meet, with a loop each.
   std::vector<uvec3> triangles;
   std::vector<std::uint32_t>
       vesselOfVertex;  ///< index into Network::vessels(); a shared ring's is one of its vessels

@@ -177,8 +177,8 @@ TEST_CASE("joint maps: names that hold signs, comments, and what says a joint tw
 }
 
 TEST_CASE("joint maps: any name is read back as it is written") {
-  const std::vector<std::string> names{"Hips",  "#Hips",  "Head #1",    " Neck ", "a = b",   "=c",
-                                       "\"q\"", "back\\", "two\nlines", "\"",     "x # \"y", "hip#2"};
+  const std::vector<std::string> names{"Hips",   "#Hips",      "Head #1", " Neck ",  "a = b", "=c",  "\"q\"",
+                                       "back\\", "two\nlines", "\"",      "x # \"y", "hip#2", "a =", ""};
   std::string text;
   JointMap told;
   for (const std::string& name : names) {
@@ -189,7 +189,8 @@ TEST_CASE("joint maps: any name is read back as it is written") {
   REQUIRE_MESSAGE(map.ok(), map.error().message);
   CHECK(*map == told);
   CHECK(jointMapName("Left Leg") == "Left Leg");
-  const auto mixed = parseJointMap("\"a\" b = c\n\"d\" =\n# \"e\" = f\n\"g # h\" = i # j\n", "m.txt");
+  const auto mixed =
+      parseJointMap("\"a\" b = c\n\"d\" =\n# \"e\" = f\n\"g # h\" = i # j\nk=l # was = \"m\"\n", "m.txt");
   REQUIRE(mixed.ok());
-  CHECK(*mixed == JointMap{{"\"a\" b", "c"}, {"d", ""}, {"g # h", "i"}});
+  CHECK(*mixed == JointMap{{"\"a\" b", "c"}, {"d", ""}, {"g # h", "i"}, {"k", "l"}});
 }

@@ -135,8 +135,11 @@ TEST_CASE("names: with or without a side, a part of one, hidden ones told, unkno
 
 TEST_CASE("names that hold commas are asked for as they are") {
   NetworkBuilder builder;
-  for (const auto& [name, x] :
-       {std::pair{"artery, renal, left", 0.2f}, {"artery, renal", 0.0f}, {"a", -0.2f}})
+  for (const auto& [name, x] : {std::pair{"artery, renal, left", 0.2f},
+                                {"artery, renal", 0.0f},
+                                {"a", -0.2f},
+                                {"left vein, renal", 0.4f},
+                                {"right vein, renal", -0.4f}})
     builder.addVessel({name, "", VesselKind::artery}, line({x, 0.2f, 0}, {x, 1.4f, 0}, 0.01f));
   const auto network = builder.build(1.7f);
   REQUIRE_MESSAGE(network.ok(), network.error().message);
@@ -149,6 +152,7 @@ TEST_CASE("names that hold commas are asked for as they are") {
   CHECK(named("a, Artery, renal, left") == Texts{"A", "Artery, renal, left"});
   CHECK(named(" artery, renal ,a") == Texts{"Artery, renal", "A"});
   CHECK(named(",, a,") == Texts{"A"});
+  CHECK(named("vein, renal, a") == Texts{"Vein, renal", "A"});
 }
 
 TEST_CASE("no line points where none may, and only vessels of the page are chosen") {
