@@ -11,8 +11,6 @@ namespace {
 using gltf::GlbWriter;
 using Json = GlbWriter::Json;
 
-constexpr std::size_t kMostVertices = 65535;  // that indices of 16 bits tell apart
-
 /// A place between two solids of a mesh: no triangle from here on has a vertex before it.
 struct Cut {
   std::size_t triangle = 0, vertex = 0;
@@ -33,7 +31,8 @@ std::vector<Cut> cutsOf(const TriangleMesh& mesh) {
     if (least[i] >= end) last = {i, end};
     const uvec3 t = mesh.triangles[i];
     end = std::max({end, std::size_t(t.x) + 1, std::size_t(t.y) + 1, std::size_t(t.z) + 1});
-    if (end - cuts.back().vertex > kMostVertices && last.vertex > cuts.back().vertex) cuts.push_back(last);
+    if (end - cuts.back().vertex > GlbWriter::kShortIndices && last.vertex > cuts.back().vertex)
+      cuts.push_back(last);
   }
   cuts.push_back({mesh.triangles.size(), mesh.positions.size()});
   return cuts;

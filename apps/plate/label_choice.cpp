@@ -153,9 +153,9 @@ bool contains(std::span<const VesselId> vessels, VesselId id) {
 
 // The vessels of a name: those that are called so, with or without their side; else all whose names it is a
 // part of.
-Result<std::vector<VesselId>> vesselsCalled(const Network& network, const std::string& name) {
+Result<std::vector<VesselId>> vesselsCalled(const Network& network, const LabelNames& names,
+                                            const std::string& name) {
   const std::string wanted = lowerCase(name);
-  const LabelNames names(network);
   std::vector<VesselId> exact, bare, partly;
   for (std::uint32_t v = 0; v < network.vessels().size(); ++v) {
     const std::string own = lowerCase(network.vessels()[v].name);
@@ -172,11 +172,11 @@ Result<std::vector<VesselId>> vesselsCalled(const Network& network, const std::s
 
 // Where the name at the beginning of a list ends: at the first comma, or behind a vessel's whole name, with
 // or without its side, that holds commas itself.
-std::size_t endOfName(const Network& network, const std::string& list, std::size_t at) {
+std::size_t endOfName(const Network& network, const LabelNames& names, const std::string& list,
+                      std::size_t at) {
   const std::string rest = lowerCase(list.substr(at));
   std::size_t end = std::min(rest.find(','), rest.size());
   if (end == rest.size()) return at + end;
-  const LabelNames names(network);
   const auto tryName = [&](const std::string& name) {
     if (name.size() <= end || name.find(',') == name.npos || !rest.starts_with(lowerCase(name))) return;
     const std::size_t next = std::min(rest.find_first_not_of(' ', name.size()), rest.size());
@@ -190,14 +190,15 @@ std::size_t endOfName(const Network& network, const std::string& list, std::size
 Result<LabelChoice> chooseByName(const Network& network, std::vector<VesselLabel> all,
                                  const std::string& list) {
   LabelChoice choice;
+  const LabelNames names(network);
   for (std::size_t at = 0; at <= list.size();) {
     at = std::min(list.find_first_not_of(' ', at), list.size());
-    const std::size_t end = endOfName(network, list, at);
+    const std::size_t end = endOfName(network, names, list, at);
     std::string name = list.substr(at, end - at);
     at = end + 1;
     name.erase(name.find_last_not_of(' ') + 1);
     if (name.empty()) continue;
-    const auto vessels = vesselsCalled(network, name);
+    const auto vessels = vesselsCalled(network, names, name);
     if (!vessels) return vessels.error();
     const auto isMeant = [&](const VesselLabel& label) {
       return std::ranges::any_of(*vessels, [&](VesselId id) { return contains(label.vessels, id); });

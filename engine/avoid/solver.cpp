@@ -296,14 +296,13 @@ void Avoider::State::chooseAnew(std::span<const vec4> points, float reach) {
 
 // Vessels that got caught, as where one limb goes through another, start from the pose as it is and go to the
 // sides of one another and of bones on which they were at rest. That is kept where it leaves less trouble.
-// With what lies near they keep the pace; with all, none where vessels interfere: better a jump than a wrong
-// shape.
+// With what lies near they keep the pace; with all, which is for vessels that interfere, none: better a jump
+// than a wrong shape.
 void Avoider::State::solveAnew(const Input& in, bool isLast, float reach) {
   const Correction tried = correction;
   const Trouble before = trouble();
   chooseAnew(in.points, reach);
-  unpaced =
-      !remaining.empty() && reach == kNoLimit ? std::span<const char>(anewPoints) : std::span<const char>();
+  unpaced = reach == kNoLimit ? std::span<const char>(anewPoints) : std::span<const char>();
   comeAlong(in);
   for (std::size_t p = 0; p < anewPoints.size(); ++p) {
     if (!anewPoints[p]) continue;

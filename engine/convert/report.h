@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "convert/attach.h"
+#include "convert/element.h"
 #include "convert/surface_error.h"
 
 namespace vasa {
@@ -12,9 +13,8 @@ namespace vasa {
 /// doubtful: what would be ok or partial and is no human vessel: wider than kWidestVessel (centre lines,
 /// too), or thinner than any that a mesh shows (another unit, a solid, a heart's chamber), or a flat sheet.
 enum class ElementStatus { ok, partial, failed, doubtful };
-/// [m] mean radius: a large aneurysm of the aorta; a surface's sections are raised to the least
-/// (ElementOptions::minimumRadius)
-constexpr float kWidestVessel = 0.03f, kThinnestVessel = 5e-5f;
+/// [m] mean radius: a large aneurysm of the aorta; what a surface's sections are raised to
+constexpr float kWidestVessel = 0.03f, kThinnestVessel = ElementOptions{}.minimumRadius;
 /// Of a mesh's surface, either side counting the same: the length of the mean normal. Around a tube it is 2 /
 /// π, in a plane 1, and around a flattened vein four times as wide as high this.
 constexpr double kFlat = 0.92;

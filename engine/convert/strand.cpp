@@ -12,6 +12,32 @@ namespace {
 
 constexpr float kTinyStep = 0.25f;  // radii: a step of less would only put a wiggle into the fit
 
+// Without sections at which the way turns back within a diameter, but for those at which something hangs.
+Sections withoutHooks(const Sections& all, std::span<const vec3> hosted) {
+  const auto carries = [&](vec4 at) {
+    return std::ranges::any_of(hosted, [&](vec3 place) { return glm::distance(place, vec3(at)) < at.w; });
+  };
+  Sections kept;
+  const auto turnsBack = [&](vec4 next) {
+    if (kept.size() < 2) return false;
+    const vec4 last = kept.back();
+    const vec3 before = vec3(last) - vec3(kept[kept.size() - 2]), after = vec3(next) - vec3(last);
+    return glm::dot(before, after) < 0 && std::max(glm::length(before), glm::length(after)) < 2 * last.w &&
+           !carries(last);
+  };
+  for (const vec4& section : all) {
+    bool turned = false;
+    while (turnsBack(section)) kept.pop_back(), turned = true;
+    if (turned && glm::distance(vec3(kept.back()), vec3(section)) < kTinyStep * section.w) {
+      if (kept.size() == 1 || carries(kept.back())) continue;
+      kept.pop_back();
+    }
+    kept.push_back(section);
+  }
+  const bool isHook = kept.size() < 2 || kept.back() != all.back();  // nothing but one
+  return isHook ? all : kept;
+}
+
 }  // namespace
 
 Along nearestAlong(const Sections& sections, vec3 p) {
@@ -172,32 +198,8 @@ void StrandGraph::removeHooks() {
   std::vector<std::vector<vec3>> hosted(strands.size());
   for (const Joint& joint : joints)
     if (joint.host) hosted[*joint.host].push_back(joint.place);
-  for (std::size_t s = 0; s < strands.size(); ++s) {
-    const Sections& all = strands[s].sections;
-    Sections kept;
-    for (const vec4& section : all) {
-      const auto carries = [&](vec4 at) {
-        return std::ranges::any_of(hosted[s],
-                                   [&](vec3 place) { return glm::distance(place, vec3(at)) < at.w; });
-      };
-      const auto turnsBack = [&] {
-        if (kept.size() < 2) return false;
-        const vec4 last = kept.back();
-        const vec3 before = vec3(last) - vec3(kept[kept.size() - 2]), after = vec3(section) - vec3(last);
-        return glm::dot(before, after) < 0 &&
-               std::max(glm::length(before), glm::length(after)) < 2 * last.w && !carries(last);
-      };
-      bool turned = false;
-      while (turnsBack()) kept.pop_back(), turned = true;
-      if (turned && glm::distance(vec3(kept.back()), vec3(section)) < kTinyStep * section.w) {
-        if (kept.size() == 1 || carries(kept.back())) continue;
-        kept.pop_back();
-      }
-      kept.push_back(section);
-    }
-    if (kept.size() < 2 || kept.back() != all.back()) continue;  // nothing but a hook
-    strands[s].sections = std::move(kept);
-  }
+  for (std::size_t s = 0; s < strands.size(); ++s)
+    strands[s].sections = withoutHooks(strands[s].sections, hosted[s]);
 }
 
 // Depth-first over joints: a joint on a host needs the joints at the host's ends settled before it.

@@ -69,13 +69,15 @@ std::size_t GlbWriter::add(std::span<const mat4> values) {
 }
 
 std::size_t GlbWriter::add(std::span<const uvec3> triangles) {
-  std::vector<std::uint16_t> small;  // where 16 bits are enough; the highest number has another meaning
-  for (const uvec3& t : triangles)
-    for (int i = 0; i < 3 && t[i] < 0xffffu; ++i) small.push_back(std::uint16_t(t[i]));
-  const bool fits = small.size() == 3 * triangles.size();
-  const std::size_t view = fits ? addView(small.data(), 2 * small.size(), indices)
-                                : addView(triangles.data(), triangles.size_bytes(), indices);
-  return addAccessor(view, fits ? unsignedShort : unsignedInt, 3 * triangles.size(), "SCALAR");
+  const std::size_t count = 3 * triangles.size();
+  const bool areShort = std::ranges::all_of(triangles, [](uvec3 t) {
+    return std::max({t.x, t.y, t.z}) < kShortIndices;
+  });
+  if (!areShort)
+    return addAccessor(addView(triangles.data(), triangles.size_bytes(), indices), unsignedInt, count,
+                       "SCALAR");
+  const std::vector<glm::u16vec3> small(triangles.begin(), triangles.end());
+  return addAccessor(addView(small.data(), 2 * count, indices), unsignedShort, count, "SCALAR");
 }
 
 std::size_t GlbWriter::addNumbers(std::span<const std::uint16_t> values) {

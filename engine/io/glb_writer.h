@@ -26,6 +26,8 @@ class GlbWriter {
   std::size_t add(std::span<const vec4> values, Use use);
   std::size_t add(std::span<const glm::u8vec4> values, Use use);
   std::size_t add(std::span<const mat4> values);
+  /// Up to so many vertices indices take 16 bits each, of which the highest number has another meaning.
+  static constexpr std::uint32_t kShortIndices = 0xffff;
   std::size_t add(std::span<const uvec3> triangles);
   /// One 16-bit number a vertex, on four bytes as glTF asks of vertices.
   std::size_t addNumbers(std::span<const std::uint16_t> values);

@@ -70,21 +70,27 @@ Result<JointMap> parseJointMap(std::string_view text, const std::string& name) {
   JointMap map;
   std::map<std::string, std::string> moverOf;  // of the body's joints
   for (std::size_t number = 1; !text.empty(); ++number) {
-    std::string_view line = nextLine(text);
-    const std::string_view whole = csv::trimmed(line);
-    std::string_view right = whole;
-    line = csv::trimmed(withoutComment(line));
-    const auto quoted = takeQuoted(right);
-    const bool byQuotes = quoted && right.starts_with('=');
-    if (line.empty() && !byQuotes) continue;
-    const std::size_t sign = signIn(line);
     const std::string where = name + ":" + std::to_string(number) + ": ";
-    if (!byQuotes && (sign == line.npos || csv::trimmed(line.substr(0, sign)).empty()))
-      return badInput(where + "a line must be `motion's joint = body's joint`");
-    const std::string joint = byQuotes ? *quoted : std::string(csv::trimmed(line.substr(0, sign)));
-    std::string moved(csv::trimmed(byQuotes ? withoutComment(right.substr(1)) : line.substr(sign + 1)));
-    right = csv::trimmed(byQuotes ? right.substr(1) : whole.substr(sign + 1));
-    if (const auto other = takeQuoted(right); other && withoutComment(right).empty()) moved = *other;
+    const std::string_view whole = csv::trimmed(nextLine(text));
+    std::string_view right = whole, uncommented;  // what is right of the sign
+    std::string joint;
+    if (const auto quoted = takeQuoted(right); quoted && right.starts_with('=')) {
+      joint = *quoted;
+      right.remove_prefix(1);
+      uncommented = withoutComment(right);
+    } else {
+      const std::string_view line = csv::trimmed(withoutComment(whole));
+      if (line.empty()) continue;
+      const std::size_t sign = signIn(line);
+      joint = csv::trimmed(line.substr(0, sign));
+      if (sign == line.npos || joint.empty())
+        return badInput(where + "a line must be `motion's joint = body's joint`");
+      right = whole.substr(sign + 1);
+      uncommented = line.substr(sign + 1);
+    }
+    std::string moved(csv::trimmed(uncommented));
+    right = csv::trimmed(right);
+    if (const auto quoted = takeQuoted(right); quoted && withoutComment(right).empty()) moved = *quoted;
     if (!map.emplace(joint, moved).second)
       return badInput(where + "'" + joint +
                       "' is on the left twice; it can move one joint, so keep one line");
