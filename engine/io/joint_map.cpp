@@ -81,13 +81,13 @@ Result<JointMap> parseJointMap(std::string_view text, const std::string& name) {
     } else {
       const std::string_view line = csv::trimmed(withoutComment(whole));
       if (line.empty()) continue;
-      const std::size_t sign = signIn(line);
-      joint = csv::trimmed(line.substr(0, sign));
-      if (sign == line.npos || joint.empty())
-        return badInput(where + "a line must be `motion's joint = body's joint`");
-      right = whole.substr(sign + 1);
-      uncommented = line.substr(sign + 1);
+      if (const std::size_t sign = signIn(line); sign != line.npos) {
+        joint = csv::trimmed(line.substr(0, sign));
+        right = whole.substr(sign + 1);
+        uncommented = line.substr(sign + 1);
+      }
     }
+    if (joint.empty()) return badInput(where + "a line must be `motion's joint = body's joint`");
     std::string moved(csv::trimmed(uncommented));
     right = csv::trimmed(right);
     if (const auto quoted = takeQuoted(right); quoted && withoutComment(right).empty()) moved = *quoted;

@@ -8,6 +8,7 @@
 #include "body/retarget.h"
 #include "core/hash.h"
 #include "core/log.h"
+#include "core/utf8.h"
 #include "edit/replay.h"
 #include "growth/growth_rules.h"
 #include "growth/regions.h"
@@ -193,7 +194,14 @@ void map(Bytes bytes) {
   const auto pairs = parseJointMap(textOf(bytes), "f");
   messageNames(pairs);
   if (!pairs) return;
-  for (const auto& [from, to] : *pairs) must(!from.empty());
+  std::string written = "# pairs\n";
+  for (const auto& [from, to] : *pairs) {
+    must(!from.empty());
+    written += jointMapName(from) + " = " + jointMapName(to) + "\n";
+  }
+  if (!isUtf8(written)) return;  // bytes would be read as another alphabet's
+  const auto again = parseJointMap(written, "f");
+  must(again && *again == *pairs);
 }
 
 void rules(Bytes bytes) {
