@@ -38,7 +38,8 @@ struct Options {
   double scale = 0;  // 0: as --unit says, else the likely one
   float bodyHeight = 0;
   float tolerance = 0;
-  bool exact = false, quantise = false, noBridges = false, keepPatches = false, interpolate = false;
+  bool exact = false, quantise = false, noBridges = false, keepPatches = false, interpolate = false,
+       part = true;
 };
 
 const std::map<std::string, VesselKind> kKinds{{"artery", VesselKind::artery},
@@ -218,7 +219,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   if (!sources) return sources.error();
   RestRepair repair;
   settings.mend = [&](const Network& network) {
-    repair = separateAtRest(network);
+    repair = options.part ? separateAtRest(network) : overlapsAtRest(network);
     return repair.network;
   };
   auto conversion = lines ? convertCentrelines(options) : convertElements(*sources, settings);
@@ -267,7 +268,8 @@ void addConvert(CLI::App& app, Command& command) {
       "from the file's, else from the names around it (mesh, collection, material), else from its colour.\n"
       "Elements that repeat others are dropped; ends that meet are joined, arteries to arteries and veins to veins.\n"
       "Vessels that run through one another are moved apart by up to 6 mm and thinned by up to 1 mm (overlaps; rest_overlaps\n"
-      "of --json names those that stay, with the reason).");
+      "of --json names those that stay, with the reason). --no-part leaves them where the surfaces have them: nearer to the\n"
+      "source, but what overlaps at rest is not held apart in motion, and check says so.");
   sub->add_option(
          "MESH", options->meshes,
          "Surfaces: .glb, .gltf, .obj, .stl, .vtp, .vtk; or centre lines with radii: .swc, .vtp, .vtk")
@@ -297,6 +299,7 @@ void addConvert(CLI::App& app, Command& command) {
          "that come near enough")
       ->excludes(tolerance);
   sub->add_flag("--no-bridges", options->noBridges, "Do not join vessels of one name across long gaps");
+  sub->add_flag("--part,!--no-part", options->part, "Move apart what overlaps at rest (the default)");
   sub->add_flag(
       "--keep-patches", options->keepPatches,
       "Keep the source's own wall around forks where it has one; it is drawn in their place and moves with them");

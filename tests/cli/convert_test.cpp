@@ -98,6 +98,24 @@ TEST_CASE("convert --interpolate puts a sweep between every two sections, for su
   CHECK(contains(refused.err, "leave out --interpolate"));
 }
 
+TEST_CASE("convert parts what overlaps at rest, and leaves it where the surfaces have it with --no-part") {
+  const Folder folder;
+  const auto mesh = folder.write("arteries.obj", tubesObj({{"left", 0}, {"right", 0.006f}}));
+  for (const bool parts : {true, false}) {
+    std::vector<std::string> arguments{"convert", mesh, "--json", "-o", folder.path("out.vasa")};
+    if (!parts) arguments.push_back("--no-part");
+    const auto outcome = runProgram(arguments);
+    REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
+    const auto summary = outcome.json()["summary"];
+    const auto pairs = summary["rest_pairs_before"].get<int>();
+    CHECK(pairs > 0);
+    CHECK(summary["rest_pairs_after"] == (parts ? 0 : pairs));
+    CHECK(summary["rest_overlaps"].empty() == parts);
+    CHECK((summary["rest_moved_max_mm"].get<double>() > 0.5) == parts);
+    CHECK((summary["error_mm"]["mean"].get<double>() > 0.2) == parts);
+  }
+}
+
 TEST_CASE("convert: units, axis, kind, height, exact numbers") {
   const Folder folder;
   const auto mesh = folder.write("tube.obj", tubesObj({{"tube", 0}}));
