@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/ids.h"
 #include "math/closest_point.h"
@@ -12,31 +13,74 @@ namespace {
 
 constexpr float kTinyStep = 0.25f;  // radii: a step of less would only put a wiggle into the fit
 
-// Without sections at which the way turns back within a diameter, but for those at which something hangs.
-Sections withoutHooks(const Sections& all, std::span<const vec3> hosted) {
-  const auto carries = [&](vec4 at) {
-    return std::ranges::any_of(hosted, [&](vec3 place) { return glm::distance(place, vec3(at)) < at.w; });
-  };
-  Sections kept;
-  const auto turnsBack = [&](vec4 next) {
-    if (kept.size() < 2) return false;
-    const vec4 last = kept.back();
-    const vec3 before = vec3(last) - vec3(kept[kept.size() - 2]), after = vec3(next) - vec3(last);
-    return glm::dot(before, after) < 0 && std::max(glm::length(before), glm::length(after)) < 2 * last.w &&
-           !carries(last);
-  };
-  for (const vec4& section : all) {
-    bool turned = false;
-    while (turnsBack(section)) kept.pop_back(), turned = true;
-    if (turned && glm::distance(vec3(kept.back()), vec3(section)) < kTinyStep * section.w) {
-      if (kept.size() == 1 || carries(kept.back())) continue;
-      kept.pop_back();
-    }
-    kept.push_back(section);
-  }
-  const bool isHook = kept.size() < 2 || kept.back() != all.back();  // nothing but one
-  return isHook ? all : kept;
+// Radius by curvature of the axis at a section between two others.
+float bendAt(vec4 before, vec4 at, vec4 after) {
+  const vec3 in = vec3(at) - vec3(before), out = vec3(after) - vec3(at);
+  const float a = glm::length(in), b = glm::length(out);
+  return 2 * at.w * glm::distance(in / a, out / b) / (a + b);
 }
+
+// Sections at which a tube would fold are left out, the sharpest bend first.
+class Unfolding {
+ public:
+  Unfolding(const Sections& all, std::span<const vec3> hosted) : all_(all), kept_(all.size()) {
+    for (const vec3 place : hosted) {
+      const Along at = nearestAlong(all, place);
+      hung_.push_back({place, at.segment, at.distance});
+    }
+    std::iota(kept_.begin(), kept_.end(), std::size_t(0));
+    for (std::size_t k = 0; k < kept_.size(); ++k) bends_.push_back(bendOf(k));
+  }
+
+  Sections run() {
+    for (auto worst = std::ranges::max_element(bends_); *worst > kFolds;
+         worst = std::ranges::max_element(bends_)) {
+      const auto k = std::size_t(worst - bends_.begin());
+      if (!canGo(k)) {
+        *worst = 0;
+        continue;
+      }
+      kept_.erase(kept_.begin() + std::ptrdiff_t(k));
+      bends_.erase(worst);
+      bends_[k - 1] = bendOf(k - 1), bends_[k] = bendOf(k);
+    }
+    Sections sections;
+    for (const std::size_t at : kept_) sections.push_back(all_[at]);
+    return sections;
+  }
+
+ private:
+  static constexpr float kFolds = 1;  // on the inside of the bend
+
+  float bendOf(std::size_t k) const {
+    const bool inner = k > 0 && k + 1 < kept_.size();
+    return inner ? bendAt(all_[kept_[k - 1]], all_[kept_[k]], all_[kept_[k + 1]]) : 0;
+  }
+
+  // Whether all that was told from the section before to the one behind lies within a diameter of the
+  // straight way, and what hangs on it within its tube or no farther off than before.
+  bool canGo(std::size_t k) const {
+    const std::size_t from = kept_[k - 1], to = kept_[k + 1];
+    const vec3 a(all_[from]), b(all_[to]);
+    const auto offWay = [&](vec3 p) { return glm::distance(p, a + closestOnSegment(p, a, b) * (b - a)); };
+    for (std::size_t at = from + 1; at < to; ++at)
+      if (offWay(vec3(all_[at])) > 2 * all_[at].w) return false;
+    return std::ranges::none_of(hung_, [&](const Hung& hung) {
+      return hung.segment >= from && hung.segment < to &&
+             offWay(hung.place) > std::max(hung.distance, all_[kept_[k]].w);
+    });
+  }
+
+  struct Hung {
+    vec3 place;
+    std::uint32_t segment;
+    float distance;  // from it
+  };
+  const Sections& all_;
+  std::vector<Hung> hung_;
+  std::vector<std::size_t> kept_;
+  std::vector<float> bends_;
+};
 
 }  // namespace
 
@@ -194,12 +238,17 @@ std::uint32_t StrandGraph::split(std::uint32_t strand, float arc) {
   return join(std::nullopt, place, halves);
 }
 
-void StrandGraph::removeHooks() {
+void StrandGraph::unfold() {
   std::vector<std::vector<vec3>> hosted(strands.size());
   for (const Joint& joint : joints)
     if (joint.host) hosted[*joint.host].push_back(joint.place);
   for (std::size_t s = 0; s < strands.size(); ++s)
-    strands[s].sections = withoutHooks(strands[s].sections, hosted[s]);
+    if (!strands[s].dropped()) strands[s].sections = Unfolding(strands[s].sections, hosted[s]).run();
+  for (Joint& joint : joints) {
+    if (!joint.host || joint.ends.empty()) continue;
+    joint.place = vec3(nearestAlong(strands[*joint.host].sections, joint.place).section);
+    for (const StrandEnd& end : joint.ends) extendTo(end, joint.place);
+  }
 }
 
 // Depth-first over joints: a joint on a host needs the joints at the host's ends settled before it.

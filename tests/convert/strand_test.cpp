@@ -84,23 +84,36 @@ TEST_CASE("dropping a strand frees what hung on it") {
   CHECK(graph.isFree(end));
 }
 
-TEST_CASE("hooks are taken out of a strand, but for those that a branch hangs on") {
-  const auto hooked = [](float x) {  // turns back by 0.8 mm half way
-    Sections sections = sectionsBetween({x, 0, 0}, {x, 0.01f, 0}, 0.001f, 0.0005f);
-    for (const vec4& section : sectionsBetween({x, 0.0092f, 0}, {x, 0.02f, 0}, 0.001f, 0.0005f))
-      sections.push_back(section);
+TEST_CASE("what a tube would fold at is taken out of a strand, but for what branches hang on") {
+  const auto line = [](std::initializer_list<vec3> corners) {
+    Sections sections;
+    for (const vec3* corner = corners.begin(); corner + 1 < corners.end(); ++corner)
+      for (const vec4& section : sectionsBetween(corner[0], corner[1], 0.001f, 0.0005f))
+        if (sections.empty() || sections.back() != section) sections.push_back(section);
     return sections;
   };
-  StrandGraph graph;
-  const auto plain = graph.add({hooked(0), 0, VesselKind::artery});
-  const auto host = graph.add({hooked(0.1f), 0, VesselKind::artery});
-  const auto branch = addLine(graph, vec3(0.1f, 0.01f, 0), vec3(0.13f, 0.01f, 0));
-  const StrandEnd foot{branch, false};
-  graph.join(host, vec3(0.1f, 0.01f, 0), std::span(&foot, 1));
-  CHECK(lengthOf(graph.strands[plain].sections) == doctest::Approx(0.0216f));
-  graph.removeHooks();
-  CHECK(lengthOf(graph.strands[plain].sections) == doctest::Approx(0.02f));
-  CHECK(lengthOf(graph.strands[host].sections) == doctest::Approx(0.0216f));
-  CHECK(graph.strands[plain].sections.front() == vec4(0, 0, 0, 0.001f));
-  CHECK(graph.strands[plain].sections.back().y == doctest::Approx(0.02f));
+  const auto hooked = line({vec3(0), vec3(0, 0.01f, 0), vec3(0, 0.0092f, 0), vec3(0, 0.02f, 0)});
+  const auto spiked =
+      line({vec3(0), vec3(0, 0.01f, 0), vec3(0.0018f, 0.01f, 0), vec3(0, 0.0101f, 0), vec3(0, 0.02f, 0)});
+  const auto looped =
+      line({vec3(0), vec3(0, 0.01f, 0), vec3(0.005f, 0.01f, 0), vec3(0, 0.0101f, 0), vec3(0, 0.02f, 0)});
+  const auto bent = line({vec3(0), vec3(0, 0.01f, 0), vec3(0.01f, 0.01f, 0)});
+  const auto unfolded = [](const Sections& sections, bool branch, vec3 place = vec3(0)) {
+    StrandGraph graph;
+    const auto host = graph.add({sections, 0, VesselKind::artery});
+    const StrandEnd foot{addLine(graph, place, place + vec3(0.03f, 0, 0)), false};
+    if (branch) graph.join(host, place, std::span(&foot, 1));
+    graph.unfold();
+    CHECK(graph.strands[host].sections.front() == sections.front());
+    CHECK(graph.strands[host].sections.back() == sections.back());
+    return graph.strands[host].sections;
+  };
+  CHECK(lengthOf(unfolded(hooked, false)) == doctest::Approx(0.02f));
+  CHECK(lengthOf(unfolded(hooked, true, vec3(0, 0.01f, 0))) ==
+        doctest::Approx(0.02f));  // hangs on what stays
+  const vec3 tip(0.0018f, 0.01f, 0);
+  CHECK(nearestAlong(unfolded(spiked, false), tip).distance == doctest::Approx(tip.x));
+  CHECK(nearestAlong(unfolded(spiked, true, tip), tip).distance <= 0.001f);
+  CHECK(lengthOf(unfolded(looped, false)) > 0.024f);  // farther out than a diameter
+  CHECK(lengthOf(unfolded(bent, false)) > 0.0185f);   // its corner cut, no more
 }
