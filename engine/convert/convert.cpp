@@ -121,7 +121,7 @@ Result<Conversion> convertElements(std::span<const SourceElement> given, const C
     for (const bool last : {false, true})
       if (!graph.strands[strand].dropped() && graph.isFree({strand, last}))
         trimTaper(graph.strands[strand].sections, last);
-  graph.unfold();
+  graph.removeFolds();
 
   auto assembly = assembleNetwork(std::move(graph), elements, options.fit, bodyHeight);
   if (!assembly)

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
+#include "convert/without_folds.h"
 #include "core/ids.h"
 #include "math/closest_point.h"
 
@@ -12,75 +12,6 @@ namespace vasa {
 namespace {
 
 constexpr float kTinyStep = 0.25f;  // radii: a step of less would only put a wiggle into the fit
-
-// Radius by curvature of the axis at a section between two others.
-float bendAt(vec4 before, vec4 at, vec4 after) {
-  const vec3 in = vec3(at) - vec3(before), out = vec3(after) - vec3(at);
-  const float a = glm::length(in), b = glm::length(out);
-  return 2 * at.w * glm::distance(in / a, out / b) / (a + b);
-}
-
-// Sections at which a tube would fold are left out, the sharpest bend first.
-class Unfolding {
- public:
-  Unfolding(const Sections& all, std::span<const vec3> hosted) : all_(all), kept_(all.size()) {
-    for (const vec3 place : hosted) {
-      const Along at = nearestAlong(all, place);
-      hung_.push_back({place, at.segment, at.distance});
-    }
-    std::iota(kept_.begin(), kept_.end(), std::size_t(0));
-    for (std::size_t k = 0; k < kept_.size(); ++k) bends_.push_back(bendOf(k));
-  }
-
-  Sections run() {
-    for (auto worst = std::ranges::max_element(bends_); *worst > kFolds;
-         worst = std::ranges::max_element(bends_)) {
-      const auto k = std::size_t(worst - bends_.begin());
-      if (!canGo(k)) {
-        *worst = 0;
-        continue;
-      }
-      kept_.erase(kept_.begin() + std::ptrdiff_t(k));
-      bends_.erase(worst);
-      bends_[k - 1] = bendOf(k - 1), bends_[k] = bendOf(k);
-    }
-    Sections sections;
-    for (const std::size_t at : kept_) sections.push_back(all_[at]);
-    return sections;
-  }
-
- private:
-  static constexpr float kFolds = 1;  // on the inside of the bend
-
-  float bendOf(std::size_t k) const {
-    const bool inner = k > 0 && k + 1 < kept_.size();
-    return inner ? bendAt(all_[kept_[k - 1]], all_[kept_[k]], all_[kept_[k + 1]]) : 0;
-  }
-
-  // Whether all that was told from the section before to the one behind lies within a diameter of the
-  // straight way, and what hangs on it within its tube or no farther off than before.
-  bool canGo(std::size_t k) const {
-    const std::size_t from = kept_[k - 1], to = kept_[k + 1];
-    const vec3 a(all_[from]), b(all_[to]);
-    const auto offWay = [&](vec3 p) { return glm::distance(p, a + closestOnSegment(p, a, b) * (b - a)); };
-    for (std::size_t at = from + 1; at < to; ++at)
-      if (offWay(vec3(all_[at])) > 2 * all_[at].w) return false;
-    return std::ranges::none_of(hung_, [&](const Hung& hung) {
-      return hung.segment >= from && hung.segment < to &&
-             offWay(hung.place) > std::max(hung.distance, all_[kept_[k]].w);
-    });
-  }
-
-  struct Hung {
-    vec3 place;
-    std::uint32_t segment;
-    float distance;  // from it
-  };
-  const Sections& all_;
-  std::vector<Hung> hung_;
-  std::vector<std::size_t> kept_;
-  std::vector<float> bends_;
-};
 
 }  // namespace
 
@@ -238,12 +169,12 @@ std::uint32_t StrandGraph::split(std::uint32_t strand, float arc) {
   return join(std::nullopt, place, halves);
 }
 
-void StrandGraph::unfold() {
+void StrandGraph::removeFolds() {
   std::vector<std::vector<vec3>> hosted(strands.size());
   for (const Joint& joint : joints)
     if (joint.host) hosted[*joint.host].push_back(joint.place);
   for (std::size_t s = 0; s < strands.size(); ++s)
-    if (!strands[s].dropped()) strands[s].sections = Unfolding(strands[s].sections, hosted[s]).run();
+    if (!strands[s].dropped()) strands[s].sections = withoutFolds(strands[s].sections, hosted[s]);
   for (Joint& joint : joints) {
     if (!joint.host || joint.ends.empty()) continue;
     joint.place = vec3(nearestAlong(strands[*joint.host].sections, joint.place).section);

@@ -93,10 +93,9 @@ class StrandGraph {
   /// what hung on the strand at this place come along. @return the joint
   std::uint32_t split(std::uint32_t strand, float arc);
 
-  /// Takes out sections at which a tube would fold, its axis bent sharper than its radius: where ends were
-  /// led on past a place, strands overlapped, rings were cut aslant. What is left out lies within a diameter
-  /// of the axis that stays; what hangs on a strand is led to that. O(sections · those that go).
-  void unfold();
+  /// Takes out sections at which tubes would fold (convert/without_folds.h). What hangs on a strand is led to
+  /// its new axis.
+  void removeFolds();
 
   /// Splits hosts until no side branches hang on one another in a circle, and none on its own strand.
   void breakCircles();

@@ -103,7 +103,7 @@ TEST_CASE("what a tube would fold at is taken out of a strand, but for what bran
     const auto host = graph.add({sections, 0, VesselKind::artery});
     const StrandEnd foot{addLine(graph, place, place + vec3(0.03f, 0, 0)), false};
     if (branch) graph.join(host, place, std::span(&foot, 1));
-    graph.unfold();
+    graph.removeFolds();
     CHECK(graph.strands[host].sections.front() == sections.front());
     CHECK(graph.strands[host].sections.back() == sections.back());
     return graph.strands[host].sections;
