@@ -5,6 +5,7 @@
 #include <map>
 
 #include "body/clip_reach.h"
+#include "body/idle_joints.h"
 #include "body/skin_recognition.h"
 #include "core/log.h"
 #include "io/gltf_clips.h"
@@ -148,6 +149,18 @@ void leaveOutStrays(std::vector<Clip>& clips, const Skeleton& skeleton, const st
   });
 }
 
+// A VRM's table says of some that they are a person's parts, whatever they move.
+void tellIdleJoints(const Asset& asset, const BodySkeleton& joints, Body& body) {
+  std::vector<bool> keep(body.skeleton.joints.size(), false);
+  for (const auto& [node, part] : asset.model.humanoid)
+    if (const JointId joint = joints.jointOfNode[std::size_t(node)]; joint.valid()) keep[joint.value] = true;
+  const std::vector<std::string> idle = leaveOutIdleJoints(body, keep);
+  if (!idle.empty())
+    logInfo(asset.name + ": " + std::to_string(idle.size()) +
+            (idle.size() > 1 ? " joints that move nothing are" : " joint that moves nothing is") +
+            " left out (" + idle.front() + (idle.size() > 1 ? " ...)" : ")"));
+}
+
 // What the file leaves open of where the body is at rest, and what of it is not seen.
 void tellWhatIsOpen(const Asset& asset, const BodySkeleton& joints, const Body& body) {
   const auto& model = asset.model;
@@ -257,6 +270,7 @@ Body bodyOf(const Asset& asset) {
     if (!std::isfinite(glm::dot(joint.restWorld[3], vec4(1)) + glm::determinant(mat3(joint.restWorld))))
       breaks("/nodes", "the transform of joint \"" + joint.name + "\" leaves the range of numbers",
              kExportAgain);
+  tellIdleJoints(asset, joints, body);
   tellWhatIsOpen(asset, joints, body);
   recogniseSkin(body);
   return body;
