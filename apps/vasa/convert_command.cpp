@@ -288,7 +288,8 @@ void addConvert(CLI::App& app, Command& command) {
   sub->add_option("--up", options->up, "The axis that points up in all but glTF files")
       ->check(CLI::IsMember({"y", "z"}))
       ->capture_default_str();
-  sub->add_option("--body-height", options->bodyHeight, "Height of the body [m] (default: of the input)")
+  sub->add_option("--body-height", options->bodyHeight,
+                  "Height of the body [m] (default: the largest extent of the input)")
       ->check(aboveZero());
   auto* tolerance = sub->add_option("--tolerance", options->tolerance,
                                     "Largest distance of a sweep from the sections it fits [mm]")

@@ -4,11 +4,16 @@ namespace vasa::cli {
 
 namespace fs = std::filesystem;
 
-Result<void> makeOutputFolder(const fs::path& folder) {
+Result<void> checkOutputFolder(const fs::path& folder) {
   if (folder == "-")
     return Error{
         Fault::usage,
         "-o -: several files do not go to standard output; name a folder (./- where it is called so)"};
+  return {};
+}
+
+Result<void> makeOutputFolder(const fs::path& folder) {
+  if (auto checked = checkOutputFolder(folder); !checked) return checked;
   std::error_code failed;
   fs::path missing = fs::absolute(folder, failed).lexically_normal();
   while (!failed && missing.has_relative_path() && !fs::exists(missing.parent_path(), failed))

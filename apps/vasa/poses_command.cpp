@@ -297,6 +297,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   if (!shard) return shard.error();
   if (options.output.empty() && (shard->count > 1 || options.resume))
     return Error{Fault::usage, "--shard and --resume need a folder to work in; give -o FOLDER"};
+  if (auto checked = checkOutputFolder(options.output); !checked) return checked;
   const FilesRead files;
   auto rays = chooseRays(options);
   if (!rays) return rays.error();

@@ -17,7 +17,9 @@ constexpr float kLongBone = 2.5f;  // times the other bone of a limb: no person'
 constexpr float kUnlikelyBone = 1.7f;
 constexpr float kShortArm = 0.4f, kLongArm = 1.2f;  // of a leg, without hand and foot
 constexpr int kGross = 8;                           // what no person has counts as much as this many doubts
-constexpr float kAlike = 0.25f;                     // the share by which the bones of both sides may differ
+constexpr std::size_t kMostTops = 64, kMostAsked = 2000;  // trees, and joints, that are looked at for people
+constexpr int kMostAbove = 8;                             // nodes one above the other above these trees
+constexpr float kAlike = 0.25f;  // the share by which the bones of both sides may differ
 
 // Names first; where these tell little, the skeleton's shape.
 void nameParts(Rig& rig) {
@@ -77,6 +79,36 @@ Rig rigOf(const Skeleton& skeleton) {
   rig.tips = rig.centres;
   nameParts(rig);
   return rig;
+}
+
+std::size_t peopleIn(const Skeleton& skeleton) {
+  constexpr int kLeastKeys = kHumanoidKeys - 2;
+  const auto& joints = skeleton.joints;
+  if (joints.size() > kMostAsked) return 0;
+  const auto isPerson = [&](std::uint32_t top) {
+    Skeleton tree;
+    std::vector<JointId> now(joints.size());
+    for (std::uint32_t j = top; j < joints.size(); ++j) {
+      const JointId parent = joints[j].parent;
+      if (j != top && !(parent.valid() && now[parent.value].valid())) continue;
+      now[j] = {std::uint32_t(tree.joints.size())};
+      tree.joints.push_back(joints[j]);
+      tree.joints.back().parent = j == top ? JointId{} : now[parent.value];
+    }
+    return tree.joints.size() >= std::size_t(kLeastKeys) && humanoidKeys(rigOf(tree).parts.of) >= kLeastKeys;
+  };
+  // What stands alone at the top may be a node above several.
+  std::size_t most = 0;
+  JointId above;
+  for (int depth = 0; depth < kMostAbove; ++depth) {
+    std::vector<std::uint32_t> tops;
+    for (std::uint32_t j = 0; j < joints.size(); ++j)
+      if (joints[j].parent == above) tops.push_back(j);
+    if (tops.size() <= kMostTops) most = std::max(most, std::size_t(std::ranges::count_if(tops, isPerson)));
+    if (tops.size() != 1) break;
+    above = {tops[0]};
+  }
+  return most;
 }
 
 std::optional<mat3> trunkOf(const Rig& rig, std::initializer_list<std::string_view> pairs) {

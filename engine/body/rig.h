@@ -38,6 +38,10 @@ struct Rig {
 bool isLowerBone(std::string_view part);
 
 Rig rigOf(const Skeleton& skeleton);  ///< at rest
+/// How many of a skeleton's trees, or of those below one node above all, are a person's by themselves: hips
+/// and neck or head among their joints, and most of the limbs. Motions and vessels know of one.
+/// 0 beyond 2000 joints.
+std::size_t peopleIn(const Skeleton& skeleton);
 /// In the first frame: a zero pose may have all bones along one line.
 Rig rigOf(const Motion& motion);
 /// Moves a motion's rig to one of its poses.

@@ -9,7 +9,7 @@
 #include "body/deform.h"
 #include "body/inside.h"
 #include "body/skin_warp.h"
-#include "core/letters.h"
+#include "core/name_words.h"
 #include "core/log.h"
 #include "core/parallel.h"
 #include "mesh/weld.h"
@@ -72,10 +72,10 @@ class Sides {
     margin_ = kNearMiddle * box.extent().y;
     std::vector<Place> all;
     for (const Vessel& vessel : network.vessels()) {
-      const std::string name = lowerCase(vessel.name);
-      const bool left = name.find("left") != name.npos, right = name.find("right") != name.npos;
-      if (left == right) continue;
-      for (const vec4& p : network.pointsOf(vessel)) all.push_back({vec3(p), left ? 1.0f : -1.0f});
+      const NamedSide side = sideNamed(vessel.name);
+      if (side == NamedSide::none) continue;
+      for (const vec4& p : network.pointsOf(vessel))
+        all.push_back({vec3(p), side == NamedSide::left ? 1.0f : -1.0f});
     }
     const std::size_t asked = std::min(all.size(), kPlacesAsked);
     for (std::size_t i = 0; i < asked; ++i) places_.push_back(all[i * all.size() / asked]);

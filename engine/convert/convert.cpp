@@ -30,13 +30,14 @@ std::vector<ElementSkeleton> skeletons(std::span<const SourceElement> elements,
   return result;
 }
 
+// A body is taller than wide and deep; what lies across is judged like what stands.
 float heightOf(std::span<const SourceElement> elements) {
   Aabb box;
   for (const SourceElement& source : elements)
     if (!source.element.mesh.empty()) box.add(source.element.mesh.bounds());
   if (box.empty()) return 0;
   const vec3 extent = box.extent();
-  return extent.y > 0 ? extent.y : std::max(extent.x, extent.z);
+  return std::max({extent.x, extent.y, extent.z});
 }
 
 std::string millimetresText(float metres) {
@@ -127,7 +128,7 @@ Result<Conversion> convertElements(std::span<const SourceElement> given, const C
   if (!assembly)
     return badInput("the vessels that were found make no network (" + assembly.error().message +
                     "); if they are not " + millimetresText(heightOf(elements)) +
-                    " mm tall, give their unit (--unit, --scale); if surfaces are torn or run through "
+                    " mm large, give their unit (--unit, --scale); if surfaces are torn or run through "
                     "themselves, mend them, or give centre lines");
   if (options.mend) {
     auto mended = options.mend(assembly->network);

@@ -18,7 +18,7 @@ struct ConvertOptions {
   AttachOptions attach;
   StrandFitOptions fit;
   SurfaceErrorOptions error;
-  float bodyHeight = 0;  ///< [m]; 0: the vertical extent of the input
+  float bodyHeight = 0;  ///< [m]; 0: the largest extent of the input
   std::function<Result<Network>(const Network&)>
       mend;  ///< what is done to the network before it is measured; may be empty
   std::function<void(std::size_t done, std::size_t total)> progress;  ///< elements, from any thread

@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <numeric>
+#include <optional>
+#include <utility>
 
+#include "core/disjoint_sets.h"
 #include "mesh/components.h"
 
 namespace vasa {
@@ -30,32 +34,66 @@ bool sameFamily(VesselKind a, VesselKind b) {
 
 namespace {
 
-// What is drawn with one kind's materials, a part a kind. What says neither goes with what came before it.
+// One a triangle: the first vertex of what it hangs together with. Equal places are one: parts of several
+// materials share none of their vertices.
+std::vector<std::uint32_t> piecesOf(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> order(mesh.positions.size()), pieces;
+  std::iota(order.begin(), order.end(), 0u);
+  const auto place = [&](std::uint32_t v) {
+    return std::array{mesh.positions[v].x, mesh.positions[v].y, mesh.positions[v].z};
+  };
+  std::ranges::sort(order, {}, place);
+  DisjointSets sets(order.size());
+  for (std::size_t i = 1; i < order.size(); ++i)
+    if (place(order[i]) == place(order[i - 1])) sets.unite(order[i], order[i - 1]);
+  for (const uvec3& t : mesh.triangles) sets.unite(t.x, t.y), sets.unite(t.y, t.z);
+  for (const uvec3& t : mesh.triangles) pieces.push_back(sets.find(t.x));
+  return pieces;
+}
+
+// What is drawn with one kind's materials, a part a kind. What says neither goes with what came before it
+// where it hangs together with anything that does; else it is a part of its own (an organ among its vessels).
 std::vector<MeshElement> byMaterials(const MeshElement& element) {
   std::vector<MeshElement> parts;
-  std::vector<VesselKind> kinds;
-  std::vector<std::vector<std::uint32_t>> triangles(1);  // of each part
-  std::size_t part = 0;
-  std::uint32_t next = 0;
-  const auto takeUpTo = [&](std::size_t end) {
-    for (; next < end; ++next) triangles[part].push_back(next);
-  };
-  for (const MeshMaterial& material : element.materials) {
-    takeUpTo(material.firstTriangle);
-    const VesselKind kind = kindOf(material);
-    if (kind == VesselKind::other) continue;
-    part = std::size_t(std::ranges::find(kinds, kind) - kinds.begin());
-    if (part < kinds.size()) continue;
-    kinds.push_back(kind);
-    triangles.resize(kinds.size());
+  std::vector<std::pair<VesselKind, std::string>> keys;  // of each part; names of what says neither
+  std::vector<std::vector<std::uint32_t>> triangles;
+  const auto partFor = [&](VesselKind kind, const MeshMaterial& material) {
+    const std::pair key(kind, kind == VesselKind::other ? material.name : std::string());
+    const auto part = std::size_t(std::ranges::find(keys, key) - keys.begin());
+    if (part < keys.size()) return part;
+    keys.push_back(key);
+    triangles.emplace_back();
     MeshElement& own = parts.emplace_back();
     own.name =
         element.name + " (" + (material.name.empty() ? std::string(kindName(kind)) : material.name) + ")";
     own.surroundings = {material.name};
     own.category = element.category, own.ontologyId = element.ontologyId;
     own.colour = material.colour;
-  }
-  takeUpTo(element.mesh.triangles.size());
+    return part;
+  };
+  const std::vector<std::uint32_t> pieces = piecesOf(element.mesh);
+  const auto eachRun = [&](const auto& take) {
+    for (std::size_t m = 0; m < element.materials.size(); ++m) {
+      const bool last = m + 1 == element.materials.size();
+      take(element.materials[m], element.materials[m].firstTriangle,
+           last ? std::uint32_t(pieces.size()) : element.materials[m + 1].firstTriangle);
+    }
+  };
+  std::vector<bool> told(element.mesh.positions.size(), false);
+  std::optional<std::size_t> before;  // the first part of a kind, until one has come
+  eachRun([&](const MeshMaterial& material, std::uint32_t first, std::uint32_t end) {
+    const VesselKind kind = kindOf(material);
+    if (kind == VesselKind::other) return;
+    const std::size_t part = partFor(kind, material);
+    if (!before) before = part;
+    for (std::uint32_t t = first; t < end; ++t) told[pieces[t]] = true;
+  });
+  eachRun([&](const MeshMaterial& material, std::uint32_t first, std::uint32_t end) {
+    const VesselKind kind = kindOf(material);
+    if (kind != VesselKind::other) before = partFor(kind, material);
+    for (std::uint32_t t = first; t < end; ++t)
+      triangles[told[pieces[t]] ? *before : partFor(kind, material)].push_back(t);
+  });
   for (std::size_t p = 0; p < parts.size(); ++p) parts[p].mesh = partOf(element.mesh, triangles[p]);
   return parts;
 }

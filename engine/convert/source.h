@@ -35,7 +35,8 @@ std::string vesselLabel(std::string_view elementName);
 bool sameFamily(VesselKind a, VesselKind b);
 
 /// Labels and kinds for the elements of one file. An element of which nothing tells the kind but materials,
-/// and these say both artery and vein, is divided by them.
+/// and these say both artery and vein, is divided by them; what of it hangs together with neither is a part
+/// of no known kind.
 std::vector<SourceElement> describeElements(std::vector<MeshElement> elements, std::string_view fileName);
 
 }  // namespace vasa

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 
 #include "convert/source.h"
 #include "core/name_words.h"
@@ -38,15 +39,31 @@ VesselKind kindOfShortForm(std::string_view raw, std::string_view words) {
   return form == "v" || form == "vv" ? VesselKind::vein : VesselKind::other;
 }
 
+// What has no Latin letters, and is no word of nameWords(): Chinese, Japanese, Korean, Russian.
+bool says(std::string_view raw, std::initializer_list<std::string_view> signs) {
+  return std::ranges::any_of(signs, [&](std::string_view sign) { return raw.find(sign) != raw.npos; });
+}
+bool saysArtery(std::string_view raw) {
+  return says(raw, {"動脈", "动脉", "動静脈", "动静脉", "동맥", "ртери", "аорт", "Аорт", "АРТЕРИ", "АОРТ"});
+}
+bool saysPortal(std::string_view raw) {
+  return says(raw, {"門脈", "門静脈", "门静脉", "門靜脈", "문맥", "воротн", "Воротн"});
+}
+bool saysVein(std::string_view raw) {
+  return saysPortal(raw) ||
+         says(raw, {"静脈", "静脉", "靜脈", "정맥", "вена", "Вена", "вены", "Вены", "ВЕНА"});
+}
+
 // A text that says both ("artery beside a vein", "arteriovenous") says neither, and is left to the next
 // source.
 VesselKind kindInText(std::string_view raw) {
   // Arches and arcades of hand, foot and bowel are arteries where nothing says that they are venous.
-  static constexpr std::array<std::string_view, 24> kArtery{"arter",
+  static constexpr std::array<std::string_view, 42> kArtery{"arter",
                                                             "artar",
                                                             "schlagader",
                                                             "slagader",
                                                             "aorta",
+                                                            "aorte",
                                                             "aortic",
                                                             "coeliac trunk",
                                                             "celiac trunk",
@@ -61,12 +78,29 @@ VesselKind kindInText(std::string_view raw) {
                                                             " rca ",
                                                             " lcx ",
                                                             "thyrocervical",
+                                                            "thyreocervical",
+                                                            "tronco celiaco",
+                                                            "tronc coeliaque",
+                                                            "tronco pulmonar",
+                                                            "tronc pulmonaire",
+                                                            "tronco polmonare",
+                                                            " cca ",
+                                                            " ica ",
+                                                            " eca ",
+                                                            " mca ",
+                                                            " aca ",
+                                                            " pca ",
+                                                            " acom ",
+                                                            " pcom ",
+                                                            " sma ",
+                                                            " cfa ",
+                                                            " sfa ",
                                                             "costocervical",
                                                             "palmar arch",
                                                             "plantar arch",
                                                             "carpal arch",
                                                             "intestinal arcade"};
-  static constexpr std::array<std::string_view, 35> kVein{" vein",
+  static constexpr std::array<std::string_view, 41> kVein{" vein",
                                                           " vena ",
                                                           " venas ",
                                                           " venae ",
@@ -82,6 +116,11 @@ VesselKind kindInText(std::string_view raw) {
                                                           " cava ",
                                                           " svc ",
                                                           " ivc ",
+                                                          " smv ",
+                                                          " ijv ",
+                                                          " cfv ",
+                                                          "dural sinus",
+                                                          "seno coronario",
                                                           "coronary sinus",
                                                           "sagittal sinus",
                                                           "transverse sinus",
@@ -92,6 +131,7 @@ VesselKind kindInText(std::string_view raw) {
                                                           "sinus sigmoideus",
                                                           "sinus rectus",
                                                           "sinus cavernosus",
+                                                          "sinus durae",
                                                           "jugular",
                                                           "straight sinus",
                                                           "occipital sinus",
@@ -103,8 +143,8 @@ VesselKind kindInText(std::string_view raw) {
                                                           "pfortader"};
   static constexpr std::array<std::string_view, 2> kLymph{"lymph", "thoracic duct"};
   const std::string text = spaced(raw);
-  const bool artery = hasAny(text, kArtery), vein = hasAny(text, kVein);
-  if (hasAny(text, kLymph)) return VesselKind::lymphatic;
+  const bool artery = hasAny(text, kArtery) || saysArtery(raw), vein = hasAny(text, kVein) || saysVein(raw);
+  if (hasAny(text, kLymph) || says(raw, {"リンパ", "淋巴", "림프", "лимф"})) return VesselKind::lymphatic;
   if (artery == vein) return artery ? VesselKind::other : kindOfShortForm(raw, text);
   return artery ? VesselKind::artery : VesselKind::vein;
 }
@@ -179,7 +219,7 @@ VesselKind kindOf(const MeshElement& element, std::string_view fileName) {
   if (kind != VesselKind::vein) return kind;
   const auto portal = [](std::string_view text) {
     static constexpr std::array<std::string_view, 3> kPortal{" portal ", " portae ", "pfortader"};
-    return hasAny(spaced(text), kPortal);
+    return hasAny(spaced(text), kPortal) || saysPortal(text);
   };
   const bool told =
       portal(element.category) || portal(element.name) || std::ranges::any_of(element.surroundings, portal);

@@ -1,5 +1,7 @@
 #include "core/name_words.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 
 #include "core/letters.h"
@@ -56,6 +58,25 @@ std::vector<std::string> nameWords(std::string_view name) {
     words.back() += lowerCase(letters[i]);
   }
   return words;
+}
+
+NamedSide sideNamed(std::string_view name) {
+  static constexpr std::array<std::string_view, 9> kLeft{"left",   "sinist",  "links", "linke", "gauche",
+                                                         "izquie", "esquerd", "lft",   "lt"},
+      kRight{"right", "dext", "rechts", "rechte", "droit", "derech", "direit", "destr", "rt"};
+  bool left = name.find("左") != name.npos, right = name.find("右") != name.npos;
+  std::vector<std::string> words = nameWords(name);
+  // "lt" and "rt" are words, the others begin some.
+  const auto begins = [&](const std::string& word, const auto& signs) {
+    return std::ranges::any_of(signs, [&](std::string_view sign) {
+      return sign.size() > 3 ? word.starts_with(sign) : word == sign;
+    });
+  };
+  for (const std::string& word : words) left |= begins(word, kLeft), right |= begins(word, kRight);
+  while (!words.empty() && words.back()[0] >= '0' && words.back()[0] <= '9') words.pop_back();
+  if (!words.empty() && !left && !right) left = words.back() == "l", right = words.back() == "r";
+  if (left == right) return NamedSide::none;
+  return left ? NamedSide::left : NamedSide::right;
 }
 
 }  // namespace vasa

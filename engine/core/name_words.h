@@ -13,4 +13,10 @@ namespace vasa {
 /// else divides words. O(name)
 std::vector<std::string> nameWords(std::string_view name);
 
+/// The side of the body that a name says: by the words left and right in English, Latin, German, French,
+/// Spanish, Portuguese, Italian, Chinese and Japanese, or by l or r at its end (femoral.l, ICA_R,
+/// vein.r.001). None where it says neither or both. O(name)
+enum class NamedSide { none, left, right };
+NamedSide sideNamed(std::string_view name);
+
 }  // namespace vasa

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "body/clip_reach.h"
 #include "body/idle_joints.h"
+#include "body/rig.h"
 #include "body/skin_recognition.h"
 #include "core/log.h"
 #include "io/gltf_clips.h"
@@ -161,6 +163,22 @@ void tellIdleJoints(const Asset& asset, const BodySkeleton& joints, Body& body) 
             " left out (" + idle.front() + (idle.size() > 1 ? " ...)" : ")"));
 }
 
+// Joint maps and --focus go by names: of joints with one name each later one has a number.
+void tellNamesApart(Skeleton& skeleton) {
+  std::set<std::string> taken;
+  for (auto& joint : skeleton.joints) taken.insert(joint.name);
+  std::map<std::string, int> met;
+  for (auto& joint : skeleton.joints) {
+    int& count = met[joint.name];
+    if (++count == 1) continue;
+    std::string name;
+    do name = joint.name + ' ' + std::to_string(count++);
+    while (!taken.insert(name).second);
+    --count;
+    joint.name = std::move(name);
+  }
+}
+
 // What the file leaves open of where the body is at rest, and what of it is not seen.
 void tellWhatIsOpen(const Asset& asset, const BodySkeleton& joints, const Body& body) {
   const auto& model = asset.model;
@@ -178,6 +196,11 @@ void tellWhatIsOpen(const Asset& asset, const BodySkeleton& joints, const Body& 
         ": its vertices are packed (KHR_mesh_quantization) and it was saved in a pose, so that where it stood "
         "is not told: it rests where its topmost joint stands in that pose, which may lie centimetres or "
         "metres beside its vessels; pack it at rest, or with floats for positions (gltfpack -vpf)");
+  if (const std::size_t people = peopleIn(body.skeleton); people > 1)
+    logWarning(
+        asset.name + ": it has " + std::to_string(people) +
+        " skeletons of a person: motions move one of them, and vessels near the others do not follow it; "
+        "export one person alone, with all that it wears on one skeleton");
   const bool hasMesh =
       std::ranges::any_of(model.nodes, [](const Model::Node& node) { return node.mesh >= 0; });
   if (hasMesh && body.meshes.empty())
@@ -271,6 +294,7 @@ Body bodyOf(const Asset& asset) {
       breaks("/nodes", "the transform of joint \"" + joint.name + "\" leaves the range of numbers",
              kExportAgain);
   tellIdleJoints(asset, joints, body);
+  tellNamesApart(body.skeleton);
   tellWhatIsOpen(asset, joints, body);
   recogniseSkin(body);
   return body;

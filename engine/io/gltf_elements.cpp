@@ -4,6 +4,7 @@
 
 #include "body/skinning.h"
 #include "core/ids.h"
+#include "io/gltf_accessor.h"
 #include "io/gltf_body.h"
 #include "io/gltf_rule.h"
 
@@ -59,18 +60,51 @@ std::vector<std::string> surroundingsOf(const Model& model, const NodeTree& tree
   return names;
 }
 
-// Of the triangles that are still to come.
-MeshMaterial meshMaterialOf(const Model& model, int material, const Geometry& geometry) {
-  const auto first = std::uint32_t(geometry.mesh.triangles.size());
-  if (material < 0) return {{}, {}, first};
-  const auto& own = model.materials[std::size_t(material)];
-  return {own.name, vec3(own.baseColour), first};
+// Colours of a primitive's vertices; empty where it has none.
+std::vector<vec3> coloursOf(const Asset& asset, const Model::Primitive& primitive) {
+  if (primitive.colour < 0) return {};
+  const Model::Accessor& accessor = asset.model.accessors[std::size_t(primitive.colour)];
+  const std::size_t each = elementLayout(accessor).components();
+  if (each != 3 && each != 4) return {};
+  const std::vector<float> values = readFloats(asset, primitive.colour);
+  std::vector<vec3> colours(values.size() / each);
+  for (std::size_t i = 0; i < colours.size(); ++i)
+    colours[i] = {values[each * i], values[each * i + 1], values[each * i + 2]};
+  return colours;
 }
 
-std::optional<vec3> colourTold(const Model& model, int node) {
-  for (const auto& primitive : model.meshes[std::size_t(model.nodes[std::size_t(node)].mesh)].primitives)
-    if (primitive.material >= 0) return vec3(model.materials[std::size_t(primitive.material)].baseColour);
-  return std::nullopt;
+// What the triangles from `first` on are drawn with, a primitive's: its material, or where its vertices have
+// few colours, a run each. Shading by vertices says nothing of what is drawn but its mean.
+void addMaterials(const Asset& asset, const Model::Primitive& primitive, const TriangleMesh& mesh,
+                  std::size_t firstVertex, std::uint32_t first, std::vector<MeshMaterial>& materials) {
+  constexpr std::size_t kMostRuns = 64;
+  MeshMaterial own{{}, {}, first};
+  if (primitive.material >= 0) {
+    const auto& told = asset.model.materials[std::size_t(primitive.material)];
+    own.name = told.name, own.colour = vec3(told.baseColour);
+  }
+  const std::vector<vec3> colours = coloursOf(asset, primitive);
+  if (colours.empty()) return materials.push_back(std::move(own));
+  const vec3 base = own.colour.value_or(vec3(1));
+  const std::size_t before = materials.size();
+  vec3 last(-1), sum(0);
+  for (std::uint32_t t = first; t < mesh.triangles.size(); ++t) {
+    const vec3 colour = colours[mesh.triangles[t].x - firstVertex];
+    sum += colour;
+    if (colour == last || materials.size() - before > kMostRuns) continue;
+    materials.push_back({own.name, base * colour, t});
+    last = colour;
+  }
+  if (materials.size() > before && materials.size() - before <= kMostRuns) return;
+  materials.resize(before);
+  if (mesh.triangles.size() > first) own.colour = base * sum / float(mesh.triangles.size() - first);
+  materials.push_back(std::move(own));
+}
+
+std::optional<vec3> colourTold(std::span<const MeshMaterial> materials) {
+  const auto told =
+      std::ranges::find_if(materials, [](const MeshMaterial& own) { return own.colour.has_value(); });
+  return told == materials.end() ? std::nullopt : told->colour;
 }
 
 // Ours (io/animated_mesh.h): in the place of the last element one for each of its vessels that has triangles,
@@ -125,8 +159,10 @@ std::vector<MeshElement> elementsOf(const Asset& asset) {
     Geometry geometry;
     std::vector<MeshMaterial> materials;
     for (const auto& primitive : mesh.primitives) {
-      materials.push_back(meshMaterialOf(asset.model, primitive.material, geometry));
+      const std::size_t vertices = geometry.mesh.positions.size();
+      const auto triangles = std::uint32_t(geometry.mesh.triangles.size());
       appendPrimitive(asset, primitive, weightsOf(asset.model, node), node.skin >= 0, geometry);
+      addMaterials(asset, primitive, geometry.mesh, vertices, triangles, materials);
     }
     const std::vector<std::uint32_t> vessels = std::move(geometry.vessels);
     if (node.skin < 0)
@@ -138,7 +174,7 @@ std::vector<MeshElement> elementsOf(const Asset& asset) {
         {nameOf(node.name, mesh.name, int(i)), std::move(labels.category), std::move(labels.ontologyId),
          node.skin < 0 ? std::move(geometry.mesh) : atRest(std::move(geometry), node.skin, *rest)});
     elements.back().surroundings = surroundingsOf(asset.model, tree, int(i));
-    elements.back().colour = colourTold(asset.model, int(i));
+    elements.back().colour = colourTold(materials);
     elements.back().materials = std::move(materials);
     mustBeFinite(elements.back().mesh.positions, int(i));
     if (!mesh.vessels.empty()) takeApart(mesh.vessels, vessels, elements);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/name_words.h"
 #include "io/gltf_rule.h"
 #include "io/gltf_tinygltf.h"
 
@@ -46,10 +47,36 @@ std::string labelIn(const json& extras, const char* key) {
   return value != extras.end() && value->is_string() ? value->get<std::string>() : std::string();
 }
 
+// The number of an ontology's term, under whatever key: "FMA": 3734, "uberon_id": "UBERON:0000947", "id" with
+// an address that ends in FMA_3734.
+std::string ontologyIdIn(const json& extras) {
+  constexpr std::size_t kLongest = 200;
+  if (std::string own = labelIn(extras, "fma"); !own.empty()) return own;
+  for (const auto& [key, value] : extras.items()) {
+    if (!value.is_string() && !value.is_number_unsigned()) continue;
+    const std::string text =
+        value.is_string() ? value.get<std::string>() : std::to_string(value.get<std::uint64_t>());
+    if (key.size() + text.size() > kLongest) continue;
+    std::string ontology;
+    for (const std::string& word : nameWords(key + ' ' + text)) {
+      if (word == "fma" || word == "uberon") ontology = word == "fma" ? "FMA" : "UBERON:";
+      if (!ontology.empty() && word[0] >= '0' && word[0] <= '9') return ontology + word;
+    }
+  }
+  return {};
+}
+
+// "artery", "vein" ...
+std::string categoryIn(const json& extras) {
+  for (const char* key : {"category", "kind", "type"})
+    if (std::string told = labelIn(extras, key); !told.empty()) return told;
+  return {};
+}
+
 void addLabels(const json& object, int number, std::map<int, Model::Labels>& labels) {
   const auto extras = object.find("extras");
   if (extras == object.end() || !extras->is_object()) return;
-  Model::Labels found{labelIn(*extras, "category"), labelIn(*extras, "fma")};
+  Model::Labels found{categoryIn(*extras), ontologyIdIn(*extras)};
   if (!found.category.empty() || !found.ontologyId.empty()) labels.emplace(number, std::move(found));
 }
 
@@ -222,6 +249,7 @@ Model::Primitive primitiveOf(const tinygltf::Primitive& primitive, int indices, 
   out.normal = named("NORMAL");
   out.indices = indices;
   out.vessel = named("_VESSEL");
+  out.colour = named("COLOR_0");
   out.material = primitive.material;
   out.mode = primitive.mode < 0 ? int(kTriangles) : primitive.mode;
   out.vertices = std::size_t(vertices);

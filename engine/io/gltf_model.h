@@ -44,6 +44,7 @@ struct Model {
     int position = -1, normal = -1, indices = -1, material = -1, mode = kTriangles;
     std::size_t vertices = 0;          // of any attribute
     std::vector<int> joints, weights;  // accessors, one a set
+    int colour = -1;                   // of vertices: RGB or RGBA
     int vessel = -1;                   // the attribute _VESSEL: which of the mesh's vessels, a vertex each
     std::vector<int> targets;          // positions' displacements of every morph target; -1: it has none
   };

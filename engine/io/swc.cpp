@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kMaximumSwcBytes = std::size_t(1) << 30;
 constexpr const char* kLine =
-    "id type x y z radius parent, with blanks between and decimal points; # begins a comment";
+    "id type x y z radius parent, with blanks or commas between and decimal points; # begins a comment";
 
 struct Row {
   SwcSample sample;
@@ -52,9 +52,11 @@ class SwcReader {
   Result<void> readLine(std::string_view text, std::size_t line) {
     static constexpr const char* kColumns[] = {"id", "type", "x", "y", "z", "radius", "parent"};
     text = text.substr(0, text.find('#'));
+    // Tables of spreadsheets divide columns by commas; fewer of them are decimal ones, which are refused.
+    const std::string_view blanks = std::ranges::count(text, ',') >= 6 ? " \t\r," : " \t\r";
     double value[7];
     for (int column = 0; column < 7; ++column) {
-      const std::string_view word = nextWord(text);
+      const std::string_view word = nextWord(text, blanks);
       if (column == 0 && word.empty()) return {};
       if (word.empty())
         return fail(line, std::string("the ") + kColumns[column] + " is missing; a line is: " + kLine);

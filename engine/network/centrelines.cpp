@@ -10,13 +10,14 @@ namespace {
 
 constexpr float kCentreShare = 0.05f, kRadiusShare = 0.005f;  // of a sample's radius
 
+// A body is taller than wide and deep; what lies across is judged like what stands.
 float heightOf(const Centrelines& centrelines) {
   Aabb box;
   for (const auto& line : centrelines.lines)
     for (const vec4& s : line.samples) box.add(vec3(s), s.w);
   if (box.empty()) return 0;
   const vec3 extent = box.extent();
-  return extent.y > 0 ? extent.y : std::max(extent.x, extent.z);
+  return std::max({extent.x, extent.y, extent.z});
 }
 
 }  // namespace

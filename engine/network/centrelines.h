@@ -39,7 +39,7 @@ struct CentrelineNetwork {
 
 /// A vessel for each line, a node for each joint. A sweep comes within 5 % of a sample's radius of its centre
 /// and within 0.5 % of its radius (curve/interpolate.h).
-/// @param bodyHeight  [m]; 0: the vertical extent of the samples
+/// @param bodyHeight  [m]; 0: the largest extent of the samples
 /// Fails as NetworkBuilder::build does, and without a line. In parallel over lines.
 Result<CentrelineNetwork> networkOfCentrelines(const Centrelines& centrelines, float bodyHeight = 0);
 

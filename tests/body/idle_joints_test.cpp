@@ -7,6 +7,7 @@
 #include "body/deform.h"
 #include "body/person.h"
 #include "body/retarget.h"
+#include "body/rig.h"
 
 using namespace vasa;
 using namespace vasa::test;
@@ -108,4 +109,18 @@ TEST_CASE("what is kept, bodies without meshes, and clips that move only what wo
   body.meshes.clear();
   CHECK(leaveOut(body).empty());
   CHECK(body.skeleton.joints.size() == joints + 1);
+}
+
+TEST_CASE("two people in one file are counted") {
+  Skeleton two = person().skeleton;
+  CHECK(peopleIn(two) == 1);
+  const Skeleton second = two;
+  for (Skeleton::Joint joint : second.joints) {
+    if (joint.parent.valid()) joint.parent.value += std::uint32_t(second.joints.size());
+    joint.restWorld = glm::translate(mat4(1), vec3(1.5f, 0, 0)) * joint.restWorld;
+    two.joints.push_back(joint);
+  }
+  CHECK(peopleIn(two) == 2);
+  CHECK(peopleIn(chainBody(std::vector<vec3>(20, vec3(0))).skeleton) == 0);
+  CHECK(peopleIn({}) == 0);
 }

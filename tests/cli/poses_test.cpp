@@ -57,6 +57,9 @@ TEST_CASE("poses says what it does not know before it loads anything") {
   outcome = runProgram({"poses", "--pair", "left knee flexion", "left knee flexion"});
   CHECK(outcome.exit == 2);
   CHECK(runProgram({"poses", "--shard", "0/2"}).exit == 2);
+  outcome = runProgram({"poses", "-o", "-", "--body", "missing.glb"});
+  CHECK(outcome.exit == 2);
+  CHECK_MESSAGE(outcome.err.find("name a folder") != std::string::npos, outcome.err);
 }
 
 TEST_CASE("poses writes names into its table as they are, commas and quotes within") {

@@ -24,6 +24,21 @@ std::vector<SourceElement> smallBody() {
 
 }  // namespace
 
+TEST_CASE("a closed ring is a network, standing or lying flat") {
+  for (const vec3 across : {vec3(0, 1, 0), vec3(0, 0, 1)}) {
+    const auto ring = [=](float t) {
+      return 0.012f * std::cos(2 * kPi * t) * vec3(1, 0, 0) + 0.009f * std::sin(2 * kPi * t) * across;
+    };
+    const std::vector<SourceElement> elements{
+        source("circle of Willis", tube(
+                                       ring, [](float) { return 0.0013f; }, 64, 12, TubeEnds::open))};
+    const auto conversion = convertElements(elements);
+    if (!conversion.ok()) FAIL(conversion.error().message);
+    CHECK(conversion->network.componentCount() == 1);
+    CHECK(conversion->report.summary.coverage > 0.98f);
+  }
+}
+
 TEST_CASE("elements become one network with forks, told element by element") {
   const auto conversion = convertElements(smallBody());
   REQUIRE(conversion.ok());

@@ -72,6 +72,40 @@ TEST_CASE("anatomists' short forms and other languages tell the kind, too") {
     CHECK_MESSAGE(kindOf(named(neither), "x") == VesselKind::other, std::string(neither));
 }
 
+TEST_CASE("names in other alphabets, and radiologists' short forms, tell the kind") {
+  for (const char* artery :
+       {"大動脈", "左総頸動脈", "主动脉", "대동맥", "Аорта", "Бедренная артерия", "SMA", "ICA_left", "R-PCA",
+        "Acom", "crosse de l'aorte", "Tronco celíaco", "Truncus thyreocervicalis"})
+    CHECK_MESSAGE(kindOf(named(artery), "x") == VesselKind::artery, std::string(artery));
+  for (const char* vein : {"上大静脈", "内頸静脈", "下腔静脉", "정맥", "Нижняя полая вена", "SMV", "IJV.l",
+                           "Sinus durae matris"})
+    CHECK_MESSAGE(kindOf(named(vein), "x") == VesselKind::vein, std::string(vein));
+  for (const char* portal : {"門脈", "门静脉"})
+    CHECK_MESSAGE(kindOf(named(portal), "x") == VesselKind::portalVein, std::string(portal));
+  CHECK(kindOf(named("動静脈"), "x") == VesselKind::other);
+  CHECK(kindOf(named("リンパ管"), "x") == VesselKind::lymphatic);
+  for (const char* neither : {"smart", "location", "africa"})
+    CHECK_MESSAGE(kindOf(named(neither), "x") == VesselKind::other, std::string(neither));
+}
+
+TEST_CASE("an organ among the vessels of one mesh goes with none of them") {
+  MeshElement element = named("Vasculature");
+  const std::vector<vec3> corners{vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)};
+  for (int k = 0; k < 4; ++k)  // the fourth is a cap of the second, beside it and of its own vertices
+    for (const vec3 corner : corners) element.mesh.positions.push_back(corner + vec3(0, 0, k == 3 ? 1 : k));
+  for (std::uint32_t k = 0; k < 4; ++k) element.mesh.triangles.emplace_back(3 * k, 3 * k + 1, 3 * k + 2);
+  element.materials = {{"artery", {}, 0}, {"vein", {}, 1}, {"kidney", {}, 2}, {"grey", {}, 3}};
+  const auto divided = describeElements({element}, "scan");
+  REQUIRE(divided.size() == 3);
+  CHECK(divided[0].kind == VesselKind::artery);
+  CHECK(divided[0].element.mesh.triangles.size() == 1);
+  CHECK(divided[1].kind == VesselKind::vein);
+  CHECK(divided[1].element.mesh.triangles.size() == 2);
+  CHECK(divided[2].kind == VesselKind::other);
+  CHECK(divided[2].label == "Vasculature (kidney)");
+  CHECK(divided[2].element.mesh.triangles.size() == 1);
+}
+
 TEST_CASE("a mesh whose materials say artery and vein is divided by them, unless its name says what it is") {
   MeshElement element = named("Mesh.001");
   element.mesh.positions = {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), vec3(1, 1, 1)};

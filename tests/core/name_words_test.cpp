@@ -41,3 +41,18 @@ TEST_CASE("other alphabets, and UTF-8 that is cut off, only divide words") {
               "b") == "a b");
   CHECK(words("vein\xcc") == "vein");
 }
+
+TEST_CASE("names tell the side in several languages, and by a letter at their end") {
+  using vasa::NamedSide;
+  using vasa::sideNamed;
+  for (const char* name : {"Left femoral artery", "femoral.l", "Femoral.L.001", "ICA_L",
+                           "A. femoralis sinistra", "Arteria links", "artère fémorale gauche",
+                           "arteria femoral izquierda", "左総頸動脈", "Lt subclavian"})
+    CHECK_MESSAGE(sideNamed(name) == NamedSide::left, std::string(name));
+  for (const char* name : {"RightFemoral", "femoral vv.r", "V. femoralis dextra", "artère rénale droite",
+                           "arteria renal derecha", "右内頸静脈", "rt renal vein"})
+    CHECK_MESSAGE(sideNamed(name) == NamedSide::right, std::string(name));
+  for (const char* name :
+       {"aorta", "L2 lumbar artery", "left branch of right hepatic artery", "cleft", "upright", "", "r2d2"})
+    CHECK_MESSAGE(sideNamed(name) == NamedSide::none, std::string(name));
+}

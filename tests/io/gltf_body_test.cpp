@@ -71,6 +71,15 @@ TEST_CASE("clips of one name can each be chosen") {
   CHECK(body.clips[2].name == body.clips[0].name + " 3");
 }
 
+TEST_CASE("joints of one name can each be told apart") {
+  GltfBuilder file = bodyFile();
+  for (auto& node : file.document["nodes"]) node["name"] = "Bone";
+  const Body body = bodyOf(file);
+  REQUIRE(body.skeleton.joints.size() == 2);
+  CHECK(body.skeleton.joints[0].name == "Bone");
+  CHECK(body.skeleton.joints[1].name == "Bone 2");
+}
+
 TEST_CASE("a clip that takes the body out of all bounds is left out") {
   const auto clipsWith = [](const char* path, const char* interpolation, const std::vector<float>& values) {
     GltfBuilder file = bodyFile();

@@ -131,6 +131,34 @@ TEST_CASE("elements stand where their nodes put them, and mirrored ones keep fac
   CHECK(elements[1].mesh.triangles == Triangles{{0, 2, 1}});
 }
 
+TEST_CASE("an ontology's number is found under whatever key it stands") {
+  const auto idWith = [](const json& extras) {
+    GltfBuilder file = triangleFile();
+    file.document["nodes"] = json::array({{{"mesh", 0}, {"extras", extras}}});
+    return elementsOf(file)[0].ontologyId;
+  };
+  CHECK(idWith({{"FMA", 3734}}) == "FMA3734");
+  CHECK(idWith({{"fma_id", "FMA:10951"}}) == "FMA10951");
+  CHECK(idWith({{"uberon", "0000947"}}) == "UBERON:0000947");
+  CHECK(idWith({{"note", 7}, {"id", "http://purl.obolibrary.org/obo/UBERON_0001585"}}) == "UBERON:0001585");
+  CHECK(idWith({{"id", "VHMLeftRenalArtery"}, {"fma", nullptr}, {"size", -3}}).empty());
+}
+
+TEST_CASE("colours of vertices are those of what is drawn, a run each; shading is its mean") {
+  GltfBuilder file = triangleFile();
+  const auto colours = [&](const std::vector<float>& values) {
+    file.document["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = file.floats(values, "VEC3");
+    return elementsOf(file)[0];
+  };
+  const MeshElement red = colours({0.8f, 0.1f, 0.1f, 0.8f, 0.1f, 0.1f, 0.8f, 0.1f, 0.1f});
+  REQUIRE(red.colour);
+  CHECK(glm::distance(*red.colour, vec3(0.8f, 0.1f, 0.1f)) < 1e-6f);
+  REQUIRE(red.materials.size() == 1);
+  file.document["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 1, 1, 1}}}}}};
+  file.document["meshes"][0]["primitives"][0]["material"] = 0;
+  CHECK(glm::distance(*elementsOf(file)[0].colour, vec3(0.4f, 0.1f, 0.1f)) < 1e-6f);
+}
+
 TEST_CASE("primitives are merged in an element and parted by material in a body") {
   GltfBuilder file = bodyFile();
   auto& primitives = file.document["meshes"][0]["primitives"];

@@ -29,7 +29,10 @@ TEST_CASE("SWC of others: a byte order mark, and roots whose parent is 0") {
   const auto oldLines = parseSwc("# made\r1 3 0 0 0 2 -1\r2 3 0 10 0 2 1\r", "a.swc");
   REQUIRE(oldLines.ok());
   CHECK(oldLines->size() == 2);
-  expectSwcFault("1,3,0,0,0,2,-1\n", "with blanks between and decimal points");
+  const auto table = parseSwc("1,3,0,0,0,2,-1\r\n2, 3, 0, 10.5, 0, 2, 1\r\n", "a.swc");
+  REQUIRE(table.ok());
+  CHECK((*table)[1].position == vec3(0, 10.5f, 0));
+  expectSwcFault("1 3 0,5 0 0 2 -1\n", "with blanks or commas between and decimal points");
 }
 
 TEST_CASE("an SWC tree: units, comments, a parent further down, a fork") {

@@ -33,6 +33,13 @@ TEST_CASE("centre lines become vessels that pass through their samples and meet 
   CHECK(network.vessels()[0].ontologyId == "FMA1");
   CHECK(network.junctionCount() == 1);
   CHECK(network.bodyHeight() == doctest::Approx(0.056f));
+  // What lies across is as large as what stands.
+  Centrelines lying = lines;
+  for (auto& line : lying.lines)
+    for (vec4& s : line.samples) std::swap(s.x, s.y);
+  const auto across = networkOfCentrelines(lying);
+  REQUIRE(across.ok());
+  CHECK(across->network.bodyHeight() == doctest::Approx(0.056f));
   for (std::size_t i = 0; i < 2; ++i)
     for (std::size_t s = 0; s < lines.lines[i].samples.size(); ++s) {
       const vec4 at = evaluate(network.pointsOf(network.vessels()[i]), made->parameters[i][s]),
