@@ -5,7 +5,6 @@
 #include <charconv>
 
 #include "core/log.h"
-#include "plate/plate_region.h"
 
 namespace vasa::cli {
 namespace {
@@ -57,8 +56,7 @@ bool parsePlace(const std::string& text, CameraChoice& choice) {
 void addCameraOptions(CLI::App& sub, CameraOptions& options) {
   sub.add_option(
       "--camera", options.camera,
-      "front, back, left, right, top (of the body), or POSITION[/TARGET[/ANGLE]], e.g. 0,1.2,3/0,1,0/25 (metres, "
-      "degrees)");
+      "front, back, left, right, top, or POSITION[/TARGET[/ANGLE]], e.g. 0,1.2,3/0,1,0/25 (metres, degrees)");
   sub.add_option("--focus", options.focus, "Vessel or joint that fills the picture and is followed");
   sub.add_option("--distance", options.distance, "How far off, as a multiple of what just fits (default 1)")
       ->check(CLI::Range(0.01, 100.0));
@@ -87,11 +85,6 @@ Result<CameraMan> CameraMan::create(const CameraChoice& choice, const Scene& sce
   const Aabb all = motionBounds(scene, clip);
   man.reach_ = choice.orthographic ? glm::length(all.extent()) : 0;
   man.still_ = cameraFrom(viewNamed(choice.view).value_or(View::front), all, aspect);
-  // Views are of the body, whichever way it faces in its file.
-  if (const mat3 turn = plate::facing(scene.body.skeleton); turn != mat3(1)) {
-    man.still_.position = man.still_.target + turn * (man.still_.position - man.still_.target);
-    man.still_.up = turn * man.still_.up;
-  }
   man.still_.verticalAngle = glm::radians(choice.angleDegrees);
   if (choice.position) {
     man.still_.position = *choice.position;
