@@ -9,8 +9,8 @@
 #include "body/deform.h"
 #include "body/inside.h"
 #include "body/skin_warp.h"
-#include "core/name_words.h"
 #include "core/log.h"
+#include "core/name_words.h"
 #include "core/parallel.h"
 #include "mesh/weld.h"
 
