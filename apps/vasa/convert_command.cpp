@@ -180,6 +180,7 @@ const char* onlyForSurfaces(const Options& options) {
   return options.interpolate     ? "--interpolate"
          : options.tolerance > 0 ? "--tolerance"
          : options.noBridges     ? "--no-bridges"
+         : !options.part         ? "--no-part"
                                  : nullptr;
 }
 

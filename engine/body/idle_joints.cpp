@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "body/humanoid.h"
 #include "body/point_tree.h"
+#include "body/rig.h"
 #include "math/aabb.h"
 
 namespace vasa {
@@ -79,25 +81,30 @@ std::vector<bool> idleJoints(const Body& body, const std::vector<bool>& keep) {
 std::vector<std::string> leaveOutIdleJoints(Body& body, const std::vector<bool>& keep) {
   const std::vector<bool> idle = idleJoints(body, keep);
   std::vector<std::string> names;
-  // A skin that is bound to nothing that ever moves says nothing of which joints count.
-  const auto movesWhatStays = [&](const Clip& clip) {
-    return std::ranges::any_of(clip.tracks, [&](const JointTracks& t) { return !idle[t.joint.value]; });
-  };
-  if (!body.clips.empty() && std::ranges::none_of(body.clips, movesWhatStays)) return names;
   std::vector<JointId> now(idle.size());  // invalid where it goes
-  std::vector<Skeleton::Joint> left;
+  Skeleton left;
+  left.rootTransform = body.skeleton.rootTransform;
   for (std::size_t j = 0; j < idle.size(); ++j) {
-    Skeleton::Joint& joint = body.skeleton.joints[j];
+    const Skeleton::Joint& joint = body.skeleton.joints[j];
     if (idle[j]) {
       names.push_back(joint.name);
       continue;
     }
-    if (joint.parent.valid()) joint.parent = now[joint.parent.value];
-    now[j] = {std::uint32_t(left.size())};
-    left.push_back(std::move(joint));
+    now[j] = {std::uint32_t(left.joints.size())};
+    left.joints.push_back(joint);
+    if (joint.parent.valid()) left.joints.back().parent = now[joint.parent.value];
   }
-  body.skeleton.joints = std::move(left);
   if (names.empty()) return names;
+  // A skin of a part of a person, or one that is bound to nothing that ever moves, says nothing of which
+  // joints count.
+  const auto movesWhatStays = [&](const Clip& clip) {
+    return std::ranges::any_of(clip.tracks, [&](const JointTracks& t) { return !idle[t.joint.value]; });
+  };
+  const auto parts = [](const Skeleton& skeleton) { return humanoidKeys(rigOf(skeleton).parts.of); };
+  if ((!body.clips.empty() && std::ranges::none_of(body.clips, movesWhatStays)) ||
+      parts(left) < parts(body.skeleton))
+    return {};
+  body.skeleton = std::move(left);
   for (SkinnedMesh& mesh : body.meshes)
     for (SkinInfluence& influence : mesh.influences)
       for (int k = 0; k < 4; ++k) {

@@ -11,7 +11,8 @@ namespace vasa {
 /// them, and motions be carried to them, while the body follows others.
 /// What moves nothing, with all that hangs on it, stays where its nearest vertex follows the nearest joint
 /// above it that moves any (the end of a head, of toes), unless it lies at that joint's own place. The others
-/// keep their order. Bodies without meshes stay as they are, and those whose clips move only what would go.
+/// keep their order. Bodies without meshes stay as they are, those whose clips move only what would go,
+/// and those of which less of a person would be known without it (a skin of head and chest alone).
 /// O((joints + vertices) · log vertices)
 /// @param body  as read: no axial bones; vertices at rest
 /// @param keep  one a joint: stays whatever it moves

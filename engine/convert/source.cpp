@@ -4,8 +4,6 @@
 #include <array>
 #include <cctype>
 #include <numeric>
-#include <optional>
-#include <utility>
 
 #include "core/disjoint_sets.h"
 #include "mesh/components.h"
@@ -51,21 +49,26 @@ std::vector<std::uint32_t> piecesOf(const TriangleMesh& mesh) {
   return pieces;
 }
 
-// What is drawn with one kind's materials, a part a kind. What says neither goes with what came before it
-// where it hangs together with anything that does; else it is a part of its own (an organ among its vessels).
+// What is drawn with one kind's materials, a part a kind. What says neither goes with what it hangs together
+// with, where that is of both kinds with what came before it; else it is a part of its own (organs among
+// vessels).
 std::vector<MeshElement> byMaterials(const MeshElement& element) {
   std::vector<MeshElement> parts;
-  std::vector<std::pair<VesselKind, std::string>> keys;  // of each part; names of what says neither
+  std::vector<VesselKind> kinds;
   std::vector<std::vector<std::uint32_t>> triangles;
+  const auto isNamed = [&](const std::string& name) {
+    return std::ranges::find(parts, name, &MeshElement::name) != parts.end();
+  };
   const auto partFor = [&](VesselKind kind, const MeshMaterial& material) {
-    const std::pair key(kind, kind == VesselKind::other ? material.name : std::string());
-    const auto part = std::size_t(std::ranges::find(keys, key) - keys.begin());
-    if (part < keys.size()) return part;
-    keys.push_back(key);
+    const auto part = std::size_t(std::ranges::find(kinds, kind) - kinds.begin());
+    if (part < kinds.size()) return part;
+    std::string name = element.name + " (" + material.name + ")";
+    if (material.name.empty() || isNamed(name))
+      name = element.name + " (" + std::string(kindName(kind)) + ")";
+    kinds.push_back(kind);
     triangles.emplace_back();
     MeshElement& own = parts.emplace_back();
-    own.name =
-        element.name + " (" + (material.name.empty() ? std::string(kindName(kind)) : material.name) + ")";
+    own.name = std::move(name);
     own.surroundings = {material.name};
     own.category = element.category, own.ontologyId = element.ontologyId;
     own.colour = material.colour;
@@ -79,20 +82,27 @@ std::vector<MeshElement> byMaterials(const MeshElement& element) {
            last ? std::uint32_t(pieces.size()) : element.materials[m + 1].firstTriangle);
     }
   };
-  std::vector<bool> told(element.mesh.positions.size(), false);
-  std::optional<std::size_t> before;  // the first part of a kind, until one has come
+  constexpr std::size_t kUntold = ~std::size_t(0), kBoth = kUntold - 1;
+  std::vector<std::size_t> partOfPiece(element.mesh.positions.size(), kUntold);
+  std::size_t before = kUntold;  // the first part of a kind, until one has come
   eachRun([&](const MeshMaterial& material, std::uint32_t first, std::uint32_t end) {
     const VesselKind kind = kindOf(material);
     if (kind == VesselKind::other) return;
     const std::size_t part = partFor(kind, material);
-    if (!before) before = part;
-    for (std::uint32_t t = first; t < end; ++t) told[pieces[t]] = true;
+    before = std::min(before, part);
+    for (std::uint32_t t = first; t < end; ++t) {
+      std::size_t& told = partOfPiece[pieces[t]];
+      told = told == kUntold || told == part ? part : kBoth;
+    }
   });
   eachRun([&](const MeshMaterial& material, std::uint32_t first, std::uint32_t end) {
     const VesselKind kind = kindOf(material);
     if (kind != VesselKind::other) before = partFor(kind, material);
-    for (std::uint32_t t = first; t < end; ++t)
-      triangles[told[pieces[t]] ? *before : partFor(kind, material)].push_back(t);
+    for (std::uint32_t t = first; t < end; ++t) {
+      const std::size_t told = kind == VesselKind::other ? partOfPiece[pieces[t]] : before;
+      const std::size_t part = told == kUntold ? partFor(kind, material) : told == kBoth ? before : told;
+      triangles[part].push_back(t);
+    }
   });
   for (std::size_t p = 0; p < parts.size(); ++p) parts[p].mesh = partOf(element.mesh, triangles[p]);
   return parts;

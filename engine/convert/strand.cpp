@@ -173,10 +173,15 @@ void StrandGraph::removeFolds() {
   std::vector<std::vector<vec3>> hosted(strands.size());
   for (const Joint& joint : joints)
     if (joint.host) hosted[*joint.host].push_back(joint.place);
-  for (std::size_t s = 0; s < strands.size(); ++s)
-    if (!strands[s].dropped()) strands[s].sections = withoutFolds(strands[s].sections, hosted[s]);
+  std::vector<bool> changed(strands.size(), false);
+  for (std::size_t s = 0; s < strands.size(); ++s) {
+    if (strands[s].dropped()) continue;
+    Sections kept = withoutFolds(strands[s].sections, hosted[s]);
+    changed[s] = kept.size() < strands[s].sections.size();
+    strands[s].sections = std::move(kept);
+  }
   for (Joint& joint : joints) {
-    if (!joint.host || joint.ends.empty()) continue;
+    if (!joint.host || !changed[*joint.host] || joint.ends.empty()) continue;
     joint.place = vec3(nearestAlong(strands[*joint.host].sections, joint.place).section);
     for (const StrandEnd& end : joint.ends) extendTo(end, joint.place);
   }

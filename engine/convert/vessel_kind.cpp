@@ -44,14 +44,15 @@ bool says(std::string_view raw, std::initializer_list<std::string_view> signs) {
   return std::ranges::any_of(signs, [&](std::string_view sign) { return raw.find(sign) != raw.npos; });
 }
 bool saysArtery(std::string_view raw) {
-  return says(raw, {"動脈", "动脉", "動静脈", "动静脉", "동맥", "ртери", "аорт", "Аорт", "АРТЕРИ", "АОРТ"});
+  return says(raw, {"動脈", "动脉", "動静脈", "动静脉", "動靜脈", "동맥", "동정맥", "ртери", "аорт", "Аорт",
+                    "АРТЕРИ", "АОРТ"});
 }
 bool saysPortal(std::string_view raw) {
-  return says(raw, {"門脈", "門静脈", "门静脉", "門靜脈", "문맥", "воротн", "Воротн"});
+  return says(raw, {"門脈", "門静脈", "门静脉", "門靜脈", "문맥", "воротная", "воротной", "Воротная"});
 }
 bool saysVein(std::string_view raw) {
   return saysPortal(raw) ||
-         says(raw, {"静脈", "静脉", "靜脈", "정맥", "вена", "Вена", "вены", "Вены", "ВЕНА"});
+         says(raw, {"静脈", "静脉", "靜脈", "정맥", "вена", "Вена", "вены", "Вены", "ВЕН", "веноз"});
 }
 
 // A text that says both ("artery beside a vein", "arteriovenous") says neither, and is left to the next

@@ -8,7 +8,7 @@ namespace vasa {
 /// is left out lies within a diameter of the axis that stays. First and last stay.
 /// @param sections  at least 2
 /// @param hosted    places that hang there: none comes to lie outside of the tube, or farther than it did
-/// O(sections · those that go).
+/// O(sections · (bends that fold + hosted)).
 Sections withoutFolds(const Sections& sections, std::span<const vec3> hosted);
 
 }  // namespace vasa

@@ -66,7 +66,7 @@ NamedSide sideNamed(std::string_view name) {
       kRight{"right", "dext", "rechts", "rechte", "droit", "derech", "direit", "destr", "rt"};
   bool left = name.find("左") != name.npos, right = name.find("右") != name.npos;
   std::vector<std::string> words = nameWords(name);
-  // "lt" and "rt" are words, the others begin some.
+  // "lft", "lt" and "rt" are words, the others begin some.
   const auto begins = [&](const std::string& word, const auto& signs) {
     return std::ranges::any_of(signs, [&](std::string_view sign) {
       return sign.size() > 3 ? word.starts_with(sign) : word == sign;

@@ -65,7 +65,7 @@ std::vector<vec3> coloursOf(const Asset& asset, const Model::Primitive& primitiv
   if (primitive.colour < 0) return {};
   const Model::Accessor& accessor = asset.model.accessors[std::size_t(primitive.colour)];
   const std::size_t each = elementLayout(accessor).components();
-  if (each != 3 && each != 4) return {};
+  if ((each != 3 && each != 4) || !hasData(asset, primitive.colour)) return {};
   const std::vector<float> values = readFloats(asset, primitive.colour);
   std::vector<vec3> colours(values.size() / each);
   for (std::size_t i = 0; i < colours.size(); ++i)

@@ -48,27 +48,30 @@ std::string labelIn(const json& extras, const char* key) {
 }
 
 // The number of an ontology's term, under whatever key: "FMA": 3734, "uberon_id": "UBERON:0000947", "id" with
-// an address that ends in FMA_3734.
+// an address that ends in FMA_3734. A number stands right behind the ontology's name, or behind its "id".
 std::string ontologyIdIn(const json& extras) {
   constexpr std::size_t kLongest = 200;
-  if (std::string own = labelIn(extras, "fma"); !own.empty()) return own;
   for (const auto& [key, value] : extras.items()) {
     if (!value.is_string() && !value.is_number_unsigned()) continue;
     const std::string text =
         value.is_string() ? value.get<std::string>() : std::to_string(value.get<std::uint64_t>());
     if (key.size() + text.size() > kLongest) continue;
-    std::string ontology;
+    std::string_view ontology;
     for (const std::string& word : nameWords(key + ' ' + text)) {
-      if (word == "fma" || word == "uberon") ontology = word == "fma" ? "FMA" : "UBERON:";
-      if (!ontology.empty() && word[0] >= '0' && word[0] <= '9') return ontology + word;
+      const bool isNumber = word[0] >= '0' && word[0] <= '9';
+      if (isNumber && !ontology.empty()) return std::string(ontology) + word;
+      if (word == "fma" || word == "uberon")
+        ontology = word == "fma" ? "FMA" : "UBERON:";
+      else if (word != "id")
+        ontology = {};
     }
   }
-  return {};
+  return labelIn(extras, "fma");
 }
 
 // "artery", "vein" ...
 std::string categoryIn(const json& extras) {
-  for (const char* key : {"category", "kind", "type"})
+  for (const char* key : {"category", "kind"})
     if (std::string told = labelIn(extras, key); !told.empty()) return told;
   return {};
 }

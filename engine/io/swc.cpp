@@ -1,11 +1,13 @@
 #include "io/swc.h"
 
 #include <algorithm>
+#include <cctype>
 
 #include "core/atomic_file.h"
 #include "core/cancellation.h"
 #include "core/log.h"
 #include "core/text_file.h"
+#include "io/csv.h"
 #include "io/words.h"
 
 namespace vasa {
@@ -14,6 +16,12 @@ namespace {
 constexpr std::size_t kMaximumSwcBytes = std::size_t(1) << 30;
 constexpr const char* kLine =
     "id type x y z radius parent, with blanks or commas between and decimal points; # begins a comment";
+
+std::string_view nextCell(std::string_view& line) {
+  const std::string_view cell = line.substr(0, line.find(','));
+  line.remove_prefix(std::min(cell.size() + 1, line.size()));
+  return csv::trimmed(cell);
+}
 
 struct Row {
   SwcSample sample;
@@ -52,12 +60,14 @@ class SwcReader {
   Result<void> readLine(std::string_view text, std::size_t line) {
     static constexpr const char* kColumns[] = {"id", "type", "x", "y", "z", "radius", "parent"};
     text = text.substr(0, text.find('#'));
-    // Tables of spreadsheets divide columns by commas; fewer of them are decimal ones, which are refused.
-    const std::string_view blanks = std::ranges::count(text, ',') >= 6 ? " \t\r," : " \t\r";
+    // Tables of spreadsheets divide columns by commas, and may begin with their names; fewer commas are
+    // decimal ones, which are refused.
+    const bool table = std::ranges::count(text, ',') >= 6;
+    if (table && rows_.empty() && std::isalpha(static_cast<unsigned char>(csv::trimmed(text)[0]))) return {};
     double value[7];
     for (int column = 0; column < 7; ++column) {
-      const std::string_view word = nextWord(text, blanks);
-      if (column == 0 && word.empty()) return {};
+      const std::string_view word = table ? nextCell(text) : nextWord(text);
+      if (column == 0 && word.empty() && !table) return {};
       if (word.empty())
         return fail(line, std::string("the ") + kColumns[column] + " is missing; a line is: " + kLine);
       if (!parseNumber(word, value[column]))

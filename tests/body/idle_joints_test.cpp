@@ -111,6 +111,18 @@ TEST_CASE("what is kept, bodies without meshes, and clips that move only what wo
   CHECK(body.skeleton.joints.size() == joints + 1);
 }
 
+TEST_CASE("a skin of a part of a person takes no limbs away") {
+  Body body = person();
+  const JointId chest = body.skeleton.find("chest");
+  REQUIRE(chest.valid());
+  const std::size_t joints = body.skeleton.joints.size();
+  for (SkinnedMesh& mesh : body.meshes)
+    for (SkinInfluence& influence : mesh.influences)
+      influence = {{std::uint16_t(chest.value), 0, 0, 0}, vec4(1, 0, 0, 0)};
+  CHECK(leaveOut(body).empty());
+  CHECK(body.skeleton.joints.size() == joints);
+}
+
 TEST_CASE("two people in one file are counted") {
   Skeleton two = person().skeleton;
   CHECK(peopleIn(two) == 1);

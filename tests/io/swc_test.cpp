@@ -33,6 +33,11 @@ TEST_CASE("SWC of others: a byte order mark, and roots whose parent is 0") {
   REQUIRE(table.ok());
   CHECK((*table)[1].position == vec3(0, 10.5f, 0));
   expectSwcFault("1 3 0,5 0 0 2 -1\n", "with blanks or commas between and decimal points");
+  expectSwcFault("1 3 0,5 0,5 0,5 2,0 -1 0,1 0,2\n", "a.swc:1: the id must be a finite number");
+  expectSwcFault("1,3,0,0,0,2,-1\n2,3,0,10,,2,1,1\n", "a.swc:2: the z is missing");
+  const auto named = parseSwc("id,type,x,y,z,r,parent\n1,3,0,0,0,2,-1\n2,3,0,1,0,2,1\n", "a.swc");
+  REQUIRE(named.ok());
+  CHECK(named->size() == 2);
 }
 
 TEST_CASE("an SWC tree: units, comments, a parent further down, a fork") {
