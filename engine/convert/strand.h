@@ -94,7 +94,7 @@ class StrandGraph {
   std::uint32_t split(std::uint32_t strand, float arc);
 
   /// Takes out sections at which tubes would fold (convert/without_folds.h). What hangs on a strand is led to
-  /// its new axis.
+  /// its new axis, inside of its tube, however sharp it bends there.
   void removeFolds();
 
   /// Splits hosts until no side branches hang on one another in a circle, and none on its own strand.

@@ -77,14 +77,15 @@ std::vector<vec3> coloursOf(const Asset& asset, const Model::Primitive& primitiv
 // few colours, a run each. Shading by vertices says nothing of what is drawn but its mean.
 void addMaterials(const Asset& asset, const Model::Primitive& primitive, const TriangleMesh& mesh,
                   std::size_t firstVertex, std::uint32_t first, std::vector<MeshMaterial>& materials) {
-  constexpr std::size_t kMostRuns = 64;
+  constexpr std::size_t kMostRuns = 64, kLongestName = 256;  // each run has the name
   MeshMaterial own{{}, {}, first};
   if (primitive.material >= 0) {
     const auto& told = asset.model.materials[std::size_t(primitive.material)];
     own.name = told.name, own.colour = vec3(told.baseColour);
   }
   const std::vector<vec3> colours = coloursOf(asset, primitive);
-  if (colours.empty()) return materials.push_back(std::move(own));
+  const bool perVertex = !colours.empty() && colours.size() == mesh.positions.size() - firstVertex;
+  if (!perVertex || own.name.size() > kLongestName) return materials.push_back(std::move(own));
   const vec3 base = own.colour.value_or(vec3(1));
   const std::size_t before = materials.size();
   vec3 last(-1), sum(0);

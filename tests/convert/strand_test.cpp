@@ -104,6 +104,11 @@ TEST_CASE("what a tube would fold at is taken out of a strand, but for what bran
     const StrandEnd foot{addLine(graph, place, place + vec3(0.03f, 0, 0)), false};
     if (branch) graph.join(host, place, std::span(&foot, 1));
     graph.removeFolds();
+    if (branch) {  // led to the axis that is left
+      const vec3 at = graph.joints[0].place;
+      CHECK(nearestAlong(graph.strands[host].sections, at).distance < 1e-6f);
+      CHECK(vec3(graph.strands[foot.strand].sections.front()) == at);
+    }
     CHECK(graph.strands[host].sections.front() == sections.front());
     CHECK(graph.strands[host].sections.back() == sections.back());
     return graph.strands[host].sections;

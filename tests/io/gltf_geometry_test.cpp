@@ -157,6 +157,20 @@ TEST_CASE("colours of vertices are those of what is drawn, a run each; shading i
   file.document["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 1, 1, 1}}}}}};
   file.document["meshes"][0]["primitives"][0]["material"] = 0;
   CHECK(glm::distance(*elementsOf(file)[0].colour, vec3(0.4f, 0.1f, 0.1f)) < 1e-6f);
+  // A name that would be told for each run is told once.
+  file.document["materials"][0]["name"] = std::string(1000, 'x');
+  CHECK(glm::distance(*elementsOf(file)[0].colour, vec3(0.5f, 1, 1)) < 1e-6f);
+  GltfBuilder two = triangleFile();
+  auto& primitive = two.document["meshes"][0]["primitives"][0];
+  primitive["attributes"]["POSITION"] =
+      two.floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1}, "VEC3");
+  primitive["attributes"]["COLOR_0"] =
+      two.floats({1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+  primitive.erase("indices");
+  const MeshElement both = elementsOf(two)[0];
+  REQUIRE(both.materials.size() == 2);
+  CHECK(both.materials[1].firstTriangle == 1);
+  CHECK(both.materials[1].colour == vec3(0, 0, 1));
 }
 
 TEST_CASE("primitives are merged in an element and parted by material in a body") {
