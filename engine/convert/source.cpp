@@ -76,6 +76,8 @@ std::vector<MeshElement> byMaterials(const MeshElement& element) {
   };
   const std::vector<std::uint32_t> pieces = piecesOf(element.mesh);
   const auto eachRun = [&](const auto& take) {
+    if (const std::uint32_t first = element.materials[0].firstTriangle; first > 0)
+      take(MeshMaterial{}, 0u, first);
     for (std::size_t m = 0; m < element.materials.size(); ++m) {
       const bool last = m + 1 == element.materials.size();
       take(element.materials[m], element.materials[m].firstTriangle,

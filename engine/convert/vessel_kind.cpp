@@ -51,8 +51,8 @@ bool saysPortal(std::string_view raw) {
   return says(raw, {"門脈", "門静脈", "门静脉", "門靜脈", "문맥", "воротная", "воротной", "Воротная"});
 }
 bool saysVein(std::string_view raw) {
-  return saysPortal(raw) ||
-         says(raw, {"静脈", "静脉", "靜脈", "정맥", "вена", "Вена", "вены", "Вены", "ВЕН", "веноз"});
+  return saysPortal(raw) || says(raw, {"静脈", "静脉", "靜脈", "정맥", "вена", "Вена", "вены", "Вены", "ВЕНА",
+                                       "ВЕНЫ", "ВЕНОЗ", "веноз"});
 }
 
 // A text that says both ("artery beside a vein", "arteriovenous") says neither, and is left to the next
@@ -184,6 +184,12 @@ VesselKind kindByNumber(std::string_view raw) {
   return VesselKind::other;
 }
 
+// Of a vein's names.
+bool namesPortal(std::string_view text) {
+  static constexpr std::array<std::string_view, 3> kPortal{" portal ", " portae ", "pfortader"};
+  return hasAny(spaced(text), kPortal) || saysPortal(text);
+}
+
 // Red and blue as every atlas has them, if it has; pink organs and grey plaster say nothing.
 VesselKind kindOfColour(vec3 c) {
   constexpr float kClearly = 2;  // times as much as of either other colour
@@ -196,6 +202,7 @@ VesselKind kindOfColour(vec3 c) {
 
 VesselKind kindOf(const MeshMaterial& material) {
   const VesselKind kind = kindInText(material.name);
+  if (kind == VesselKind::vein && namesPortal(material.name)) return VesselKind::portalVein;
   return kind == VesselKind::other && material.colour ? kindOfColour(*material.colour) : kind;
 }
 
@@ -218,12 +225,8 @@ VesselKind kindOf(const MeshElement& element, std::string_view fileName) {
     if (kind == VesselKind::other) kind = kindInText(text);
   if (kind == VesselKind::other && element.colour) kind = kindOfColour(*element.colour);
   if (kind != VesselKind::vein) return kind;
-  const auto portal = [](std::string_view text) {
-    static constexpr std::array<std::string_view, 3> kPortal{" portal ", " portae ", "pfortader"};
-    return hasAny(spaced(text), kPortal) || saysPortal(text);
-  };
-  const bool told =
-      portal(element.category) || portal(element.name) || std::ranges::any_of(element.surroundings, portal);
+  const bool told = namesPortal(element.category) || namesPortal(element.name) ||
+                    std::ranges::any_of(element.surroundings, namesPortal);
   return told ? VesselKind::portalVein : kind;
 }
 

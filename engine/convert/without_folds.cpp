@@ -61,7 +61,8 @@ class FoldRemoval {
     const std::size_t from = kept_[k - 1], to = kept_[k + 1];
     const vec3 a(all_[from]), b(all_[to]);
     const auto offWay = [&](vec3 p) { return glm::distance(p, a + closestOnSegment(p, a, b) * (b - a)); };
-    if (a == b && kept_.size() == 3) return false;  // two in one place have no way between them
+    if (kept_.size() == 3 && glm::distance(a, b) < all_[kept_[k]].w)
+      return false;  // a loop, its ends side by side
     for (std::size_t at = from + 1; at < to; ++at)
       if (offWay(vec3(all_[at])) > 2 * all_[at].w) return false;
     return std::ranges::none_of(hung_, [&](const Hung& hung) {

@@ -44,12 +44,16 @@ Model::Labels labelsOf(const Model& model, int node) {
   return labels;
 }
 
+// Longer ones name nothing that a reader knows, and each element has a copy.
+constexpr std::size_t kLongestName = 256;
+
 // From near to far; what is said of the element itself first.
 std::vector<std::string> surroundingsOf(const Model& model, const NodeTree& tree, int node) {
   std::vector<std::string> names;
   const auto& mesh = model.meshes[std::size_t(model.nodes[std::size_t(node)].mesh)];
   const auto add = [&](const std::string& name) {
-    if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(name);
+    const bool counts = !name.empty() && name.size() <= kLongestName;
+    if (counts && std::ranges::find(names, name) == names.end()) names.push_back(name);
   };
   add(mesh.name);
   for (const auto& primitive : mesh.primitives)
@@ -77,15 +81,17 @@ std::vector<vec3> coloursOf(const Asset& asset, const Model::Primitive& primitiv
 // few colours, a run each. Shading by vertices says nothing of what is drawn but its mean.
 void addMaterials(const Asset& asset, const Model::Primitive& primitive, const TriangleMesh& mesh,
                   std::size_t firstVertex, std::uint32_t first, std::vector<MeshMaterial>& materials) {
-  constexpr std::size_t kMostRuns = 64, kLongestName = 256;  // each run has the name
+  constexpr std::size_t kMostRuns = 64;
   MeshMaterial own{{}, {}, first};
   if (primitive.material >= 0) {
     const auto& told = asset.model.materials[std::size_t(primitive.material)];
-    own.name = told.name, own.colour = vec3(told.baseColour);
+    if (told.name.size() <= kLongestName) own.name = told.name;
+    own.colour = vec3(told.baseColour);
   }
+  if (mesh.triangles.size() == first)
+    return materials.push_back(std::move(own));  // nothing is drawn with them
   const std::vector<vec3> colours = coloursOf(asset, primitive);
-  const bool perVertex = !colours.empty() && colours.size() == mesh.positions.size() - firstVertex;
-  if (!perVertex || own.name.size() > kLongestName) return materials.push_back(std::move(own));
+  if (colours.empty()) return materials.push_back(std::move(own));
   const vec3 base = own.colour.value_or(vec3(1));
   const std::size_t before = materials.size();
   vec3 last(-1), sum(0);
@@ -96,9 +102,9 @@ void addMaterials(const Asset& asset, const Model::Primitive& primitive, const T
     materials.push_back({own.name, base * colour, t});
     last = colour;
   }
-  if (materials.size() > before && materials.size() - before <= kMostRuns) return;
+  if (materials.size() - before <= kMostRuns) return;
   materials.resize(before);
-  if (mesh.triangles.size() > first) own.colour = base * sum / float(mesh.triangles.size() - first);
+  own.colour = base * sum / float(mesh.triangles.size() - first);
   materials.push_back(std::move(own));
 }
 

@@ -47,25 +47,34 @@ std::string labelIn(const json& extras, const char* key) {
   return value != extras.end() && value->is_string() ? value->get<std::string>() : std::string();
 }
 
-// The number of an ontology's term, under whatever key: "FMA": 3734, "uberon_id": "UBERON:0000947", "id" with
-// an address that ends in FMA_3734. A number stands right behind the ontology's name, or behind its "id".
+// The number of an ontology's term in a text, right behind the ontology's name or behind its "id".
+std::string ontologyIdIn(const std::string& text) {
+  std::string_view ontology;
+  for (const std::string& word : nameWords(text)) {
+    const bool isNumber = word[0] >= '0' && word[0] <= '9';
+    if (isNumber && !ontology.empty()) return std::string(ontology) + word;
+    if (word == "fma" || word == "uberon")
+      ontology = word == "fma" ? "FMA" : "UBERON:";
+    else if (word != "id")
+      ontology = {};
+  }
+  return {};
+}
+
+// That of what extras tell under whatever key: "FMA": 3734, "uberon_id": "UBERON:0000947", "id" with an
+// address that ends in FMA_3734. What "fma" says is the element's own; other keys may tell others' as well.
 std::string ontologyIdIn(const json& extras) {
   constexpr std::size_t kLongest = 200;
-  for (const auto& [key, value] : extras.items()) {
-    if (!value.is_string() && !value.is_number_unsigned()) continue;
+  const auto told = [&](const std::string& key, const json& value) {
+    if (!value.is_string() && !value.is_number_unsigned()) return std::string();
     const std::string text =
         value.is_string() ? value.get<std::string>() : std::to_string(value.get<std::uint64_t>());
-    if (key.size() + text.size() > kLongest) continue;
-    std::string_view ontology;
-    for (const std::string& word : nameWords(key + ' ' + text)) {
-      const bool isNumber = word[0] >= '0' && word[0] <= '9';
-      if (isNumber && !ontology.empty()) return std::string(ontology) + word;
-      if (word == "fma" || word == "uberon")
-        ontology = word == "fma" ? "FMA" : "UBERON:";
-      else if (word != "id")
-        ontology = {};
-    }
-  }
+    return key.size() + text.size() > kLongest ? std::string() : ontologyIdIn(key + ' ' + text);
+  };
+  if (const auto own = extras.find("fma"); own != extras.end())
+    if (std::string id = told("fma", *own); !id.empty()) return id;
+  for (const auto& [key, value] : extras.items())
+    if (std::string id = told(key, value); !id.empty()) return id;
   return labelIn(extras, "fma");
 }
 

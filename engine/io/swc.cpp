@@ -63,11 +63,12 @@ class SwcReader {
     // Tables of spreadsheets divide columns by commas, and may begin with their names; fewer commas are
     // decimal ones, which are refused.
     const bool table = std::ranges::count(text, ',') >= 6;
-    if (table && rows_.empty() && std::isalpha(static_cast<unsigned char>(csv::trimmed(text)[0]))) return {};
+    if (text.find_first_not_of(" \t\r,") == text.npos) return {};
+    const auto first = static_cast<unsigned char>(csv::trimmed(text)[0]);
+    if (table && rows_.empty() && (std::isalpha(first) || first == '"')) return {};
     double value[7];
     for (int column = 0; column < 7; ++column) {
       const std::string_view word = table ? nextCell(text) : nextWord(text);
-      if (column == 0 && word.empty() && !table) return {};
       if (word.empty())
         return fail(line, std::string("the ") + kColumns[column] + " is missing; a line is: " + kLine);
       if (!parseNumber(word, value[column]))
