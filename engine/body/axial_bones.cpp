@@ -4,14 +4,13 @@
 #include <limits>
 #include <optional>
 #include <span>
-#include <tuple>
 
 #include "body/bone_field.h"
 #include "body/mesh_role.h"
 #include "body/rig.h"
-#include "core/disjoint_sets.h"
 #include "math/aabb.h"
 #include "math/closest_point.h"
+#include "mesh/components.h"
 
 namespace vasa {
 namespace {
@@ -61,20 +60,6 @@ bool passesThrough(const Link& link, const Aabb& box) {
     last = std::min(last, std::max(low, high));
   }
   return first <= last;
-}
-
-/// Parts hang together by triangles, and where places of `vertices` are the same.
-DisjointSets partsOf(const TriangleMesh& mesh, std::vector<std::uint32_t> vertices) {
-  DisjointSets sets(mesh.positions.size());
-  for (const uvec3& t : mesh.triangles) sets.unite(t.x, t.y), sets.unite(t.x, t.z);
-  const auto place = [&](std::uint32_t v) {
-    const vec3& p = mesh.positions[v];
-    return std::tuple(p.x, p.y, p.z);
-  };
-  std::ranges::sort(vertices, {}, place);
-  for (std::size_t i = 1; i < vertices.size(); ++i)
-    if (place(vertices[i - 1]) == place(vertices[i])) sets.unite(vertices[i - 1], vertices[i]);
-  return sets;
 }
 
 /// A part of a rigid mesh of which at least something moves with the spine.
@@ -143,7 +128,7 @@ class Separator {
     for (std::uint32_t v = 0; v < mesh.influences.size(); ++v)
       if (linkOf(soleCarrier(mesh.influences[v]))) vertices.push_back(v);
     if (vertices.empty()) return;
-    DisjointSets sets = partsOf(mesh.mesh, std::move(vertices));
+    DisjointSets sets = joinedVertices(mesh.mesh, std::move(vertices));
     std::vector<std::uint32_t> number(mesh.influences.size(), kNone);
     for (std::uint32_t v = 0; v < mesh.influences.size(); ++v) {
       const std::uint32_t carrier = soleCarrier(mesh.influences[v]);

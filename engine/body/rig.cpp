@@ -86,16 +86,12 @@ std::size_t peopleIn(const Skeleton& skeleton) {
   const auto& joints = skeleton.joints;
   if (joints.size() > kMostAsked) return 0;
   const auto isPerson = [&](std::uint32_t top) {
-    Skeleton tree;
-    std::vector<JointId> now(joints.size());
-    for (std::uint32_t j = top; j < joints.size(); ++j) {
-      const JointId parent = joints[j].parent;
-      if (j != top && !(parent.valid() && now[parent.value].valid())) continue;
-      now[j] = {std::uint32_t(tree.joints.size())};
-      tree.joints.push_back(joints[j]);
-      tree.joints.back().parent = j == top ? JointId{} : now[parent.value];
-    }
-    return tree.joints.size() >= std::size_t(kLeastKeys) && humanoidKeys(rigOf(tree).parts.of) >= kLeastKeys;
+    std::vector<bool> tree(joints.size(), false);
+    tree[top] = true;
+    for (std::size_t j = top + 1; j < joints.size(); ++j)
+      tree[j] = joints[j].parent.valid() && tree[joints[j].parent.value];
+    return std::ranges::count(tree, true) >= kLeastKeys &&
+           humanoidKeys(rigOf(keepJoints(skeleton, tree).skeleton).parts.of) >= kLeastKeys;
   };
   // What stands alone at the top may be a node above several.
   std::size_t most = 0;

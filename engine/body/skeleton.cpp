@@ -19,6 +19,20 @@ JointId Skeleton::find(std::string_view name) const {
   return {};
 }
 
+JointsKept keepJoints(const Skeleton& skeleton, const std::vector<bool>& kept) {
+  JointsKept out;
+  out.skeleton.rootTransform = skeleton.rootTransform;
+  out.now.resize(skeleton.joints.size());
+  auto& joints = out.skeleton.joints;
+  for (std::size_t j = 0; j < kept.size(); ++j) {
+    if (!kept[j]) continue;
+    out.now[j] = {std::uint32_t(joints.size())};
+    joints.push_back(skeleton.joints[j]);
+    if (JointId& parent = joints.back().parent; parent.valid()) parent = out.now[parent.value];
+  }
+  return out;
+}
+
 bool hangsOn(std::span<const std::uint32_t> parents, std::uint32_t joint, std::uint32_t top) {
   for (; joint != JointId::kNone; joint = parents[joint])
     if (joint == top) return true;

@@ -33,6 +33,13 @@ struct Skeleton {
   JointId find(std::string_view name) const;
 };
 
+/// Some of a skeleton's joints, in their order; a joint whose parent is left out becomes a root.
+struct JointsKept {
+  Skeleton skeleton;
+  std::vector<JointId> now;  ///< of each joint that there was; invalid where it is left out
+};
+JointsKept keepJoints(const Skeleton& skeleton, const std::vector<bool>& kept);
+
 /// Whether a joint is `top` or hangs on it. @param parents  of each joint; JointId::kNone at a root
 bool hangsOn(std::span<const std::uint32_t> parents, std::uint32_t joint, std::uint32_t top);
 

@@ -5,7 +5,6 @@
 #include <cctype>
 #include <numeric>
 
-#include "core/disjoint_sets.h"
 #include "mesh/components.h"
 
 namespace vasa {
@@ -32,19 +31,11 @@ bool sameFamily(VesselKind a, VesselKind b) {
 
 namespace {
 
-// One a triangle: the first vertex of what it hangs together with. Equal places are one: parts of several
-// materials share none of their vertices.
+// One a triangle: the first vertex of what it hangs together with.
 std::vector<std::uint32_t> piecesOf(const TriangleMesh& mesh) {
-  std::vector<std::uint32_t> order(mesh.positions.size()), pieces;
-  std::iota(order.begin(), order.end(), 0u);
-  const auto place = [&](std::uint32_t v) {
-    return std::array{mesh.positions[v].x, mesh.positions[v].y, mesh.positions[v].z};
-  };
-  std::ranges::sort(order, {}, place);
-  DisjointSets sets(order.size());
-  for (std::size_t i = 1; i < order.size(); ++i)
-    if (place(order[i]) == place(order[i - 1])) sets.unite(order[i], order[i - 1]);
-  for (const uvec3& t : mesh.triangles) sets.unite(t.x, t.y), sets.unite(t.y, t.z);
+  std::vector<std::uint32_t> all(mesh.positions.size()), pieces;
+  std::iota(all.begin(), all.end(), 0u);
+  DisjointSets sets = joinedVertices(mesh, std::move(all));
   for (const uvec3& t : mesh.triangles) pieces.push_back(sets.find(t.x));
   return pieces;
 }

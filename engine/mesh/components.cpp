@@ -1,7 +1,9 @@
 #include "mesh/components.h"
 
+#include <algorithm>
+#include <tuple>
+
 #include "core/cancellation.h"
-#include "core/disjoint_sets.h"
 #include "core/ids.h"
 
 namespace vasa {
@@ -31,6 +33,19 @@ TriangleMesh partOf(const TriangleMesh& mesh, std::span<const std::uint32_t> tri
 }
 
 }  // namespace
+
+DisjointSets joinedVertices(const TriangleMesh& mesh, std::vector<std::uint32_t> vertices) {
+  DisjointSets sets(mesh.positions.size());
+  for (const uvec3& t : mesh.triangles) sets.unite(t.x, t.y), sets.unite(t.x, t.z);
+  const auto place = [&](std::uint32_t v) {
+    const vec3& p = mesh.positions[v];
+    return std::tuple(p.x, p.y, p.z);
+  };
+  std::ranges::sort(vertices, {}, place);
+  for (std::size_t i = 1; i < vertices.size(); ++i)
+    if (place(vertices[i - 1]) == place(vertices[i])) sets.unite(vertices[i - 1], vertices[i]);
+  return sets;
+}
 
 TriangleMesh partOf(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles) {
   std::vector<std::uint32_t> number(mesh.positions.size(), kNone);
