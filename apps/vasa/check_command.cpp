@@ -128,18 +128,18 @@ class SideCheck {
  public:
   explicit SideCheck(const Network& network)
       : interference_(network), sides_(network, interference_), tubes_(interference_.layout().count()) {}
-  std::span<const Contact> find(const FrameMaker& maker) {
+  std::span<const RestSides::Turned> find(const FrameMaker& maker) {
     interference_.layout().shape(maker.points(), tubes_);
     sides_.findChanged(tubes_, maker.rotations(), changed_);
     return changed_;
   }
-  std::span<const Contact> changed() const { return changed_; }
+  std::span<const RestSides::Turned> changed() const { return changed_; }
 
  private:
   Interference interference_;
   RestSides sides_;
   std::vector<Bezier> tubes_;
-  std::vector<Contact> changed_;
+  std::vector<RestSides::Turned> changed_;
 };
 
 // What is looked at beside the maker's own report; some of it remembers the frame before.
@@ -173,7 +173,7 @@ void addSteps(const Network& network, const std::optional<CorrectionSteps::Steps
 
 // The places that are left: overlaps, changed sides with how far beyond one another's centre lines the two
 // are, tubes in bones by the joint that carries the bone, and spans whose lumen gave way.
-void addPlaces(const Scene& scene, const Avoider& avoider, std::span<const Contact> changedSides,
+void addPlaces(const Scene& scene, const Avoider& avoider, std::span<const RestSides::Turned> changedSides,
                Report& row) {
   const Network& network = scene.network;
   const auto describe = [&](const Contact& contact, float depth) {
@@ -188,7 +188,8 @@ void addPlaces(const Scene& scene, const Avoider& avoider, std::span<const Conta
   row["remaining"] = row["changed_sides"] = Report::array();
   for (const Interference::Place& place : avoider.remaining())
     row["remaining"].push_back(describe(place.contact, place.excess()));
-  for (const Contact& contact : changedSides) row["changed_sides"].push_back(describe(contact, -contact.f));
+  for (const RestSides::Turned& turned : changedSides)
+    row["changed_sides"].push_back(describe(turned.at, -turned.at.f));
   row["in_bones"] = Report::array();
   for (const BoneContact& contact : avoider.inBones()) {
     const auto [vessel, span] = avoider.layout().address(contact.tube);

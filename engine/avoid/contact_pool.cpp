@@ -101,22 +101,26 @@ float ContactPool::clearanceFor(const Constraint& at, float radii) const {
 // Two vessels that touch may roll around one another, but not beyond a right angle from where they lay at
 // rest; where that is the less sure, the farther they were apart then, not quite to where it counts as
 // another side. Those that cross are left where they are: asked to go back, they would be pressed into one
-// another.
-bool ContactPool::wouldRoll(const Contact& contact, std::span<const Bezier> shape, const LastShape& last,
-                            Constraint& constraint) const {
-  const auto [i, j, s, t, f, contactNormal] = contact;
-  if (crossOver(unitOr(vec3(shape[i].derivative(s)), vec3(0)), unitOr(vec3(shape[j].derivative(t)), vec3(0))))
+// another. What has come ahead of a vessel's end would slip around it: it stays as far on its side as it has
+// to, to be there once it is beside the end again.
+bool ContactPool::wouldRoll(const RestSides::Turned& turned, std::span<const Bezier> shape,
+                            Constraint& constraint) {
+  const auto& [at, side, aheadOfEnd] = turned;
+  const auto [i, j, s, t, f, contactNormal] = at;
+  if (!aheadOfEnd &&
+      crossOver(unitOr(vec3(shape[i].derivative(s)), vec3(0)), unitOr(vec3(shape[j].derivative(t)), vec3(0))))
     return false;
-  const vec3 side = sides_->carried({i, j, s, t}, shape, last.rotations);
   const float sure = glm::length(side);
   if (sure <= kUnsure) return false;
   const vec4 a = shape[i].at(s), b = shape[j].at(t);
-  const vec3 gap = vec3(a) - vec3(b);
+  const float apart = glm::distance(vec3(a), vec3(b)), radii = a.w + b.w;
   const float share = std::clamp((sure - kUnsure) / (kSure - kUnsure), 0.0f, 1.0f);
+  float least = 0.9f * RestSides::kChanged * (1 - share) * apart;
+  if (aheadOfEnd) least = std::min(least, -std::max(apart - radii, 0.0f));
   constraint = {.i = i, .other = j, .s = s, .t = t, .normal = side / sure};
-  constraint.limit = kReach * glm::length(gap);
-  constraint.clearance = 0.9f * RestSides::kChanged * (1 - share) * glm::length(gap) - a.w - b.w;
-  return a.w + b.w + constraint.clearance - glm::dot(constraint.normal, gap) > kNegligible;
+  constraint.limit = kReach * apart;
+  constraint.clearance = least - radii;
+  return least - f > kNegligible;
 }
 
 void ContactPool::propose(const Contact& contact, std::span<const Bezier> shape, const LastShape& last,
@@ -197,13 +201,13 @@ void ContactPool::take(const Constraint& constraint, const MotionSpace::Rows& ro
   begin(own, shape, z);
 }
 
-void ContactPool::addSides(std::span<const Contact> changed, std::span<const Bezier> shape,
-                           const LastShape& last, std::span<const vec3> z) {
+void ContactPool::addSides(std::span<const RestSides::Turned> turned, std::span<const Bezier> shape,
+                           std::span<const vec3> z) {
   const std::size_t before = constraints_.size();
   sideRows_.clear();
-  for (const Contact& contact : changed) {
+  for (const RestSides::Turned& own : turned) {
     Constraint constraint;
-    if (!wouldRoll(contact, shape, last, constraint)) continue;
+    if (!wouldRoll(own, shape, constraint)) continue;
     giveRow(constraint, sideRows_);
     take(constraint, sideRows_, shape, z);
   }

@@ -57,8 +57,9 @@ class ContactPool {
            std::span<const Bezier> shape, const LastShape& last, std::span<const char> moved,
            std::span<vec3> z);
 
-  /// Turns vessels back that have rolled around one another. @param changed  RestSides::findChanged
-  void addSides(std::span<const Contact> changed, std::span<const Bezier> shape, const LastShape& last,
+  /// Turns vessels back that roll around one another, or around one another's ends.
+  /// @param turned  RestSides::findTurned
+  void addSides(std::span<const RestSides::Turned> turned, std::span<const Bezier> shape,
                 std::span<const vec3> z);
 
   /// To be called before add() in every round: distances for the radii of the given shape.
@@ -79,8 +80,8 @@ class ContactPool {
     MotionSpace::Rows rows;
   };
   float clearanceFor(const Constraint& at, float radii) const;
-  bool wouldRoll(const Contact& contact, std::span<const Bezier> shape, const LastShape& last,
-                 Constraint& constraint) const;
+  static bool wouldRoll(const RestSides::Turned& turned, std::span<const Bezier> shape,
+                        Constraint& constraint);
   void propose(const Contact& contact, std::span<const Bezier> shape, const LastShape& last,
                Proposals& found);
   void propose(const BoneContact& place, std::span<const Bezier> shape, Proposals& found) const;

@@ -68,9 +68,24 @@ vec3 RestSides::carried(const Place& at, std::span<const Bezier> shape,
          std::min(1.0f, apart / (kTooClose * radii));
 }
 
+// Tubes that cross, at rest and now, lie as the first two fingers of one hand do, however far they have slid
+// along one another; others lie, like these where that is sure, on the side on which they were there. Where
+// the two disagree, as of tubes that have turned past one another's direction, nothing is known.
+vec3 RestSides::sideOf(const Contact& rest, const Contact& now, std::span<const Bezier> shape,
+                       std::span<const quat> rotations) const {
+  const vec3 side = carried({now.i, now.j, now.s, now.t}, shape, rotations);
+  const std::span<const Bezier> before = interference_->restTubes();
+  const vec3 u = directionOf(shape[now.i], now.s), v = directionOf(shape[now.j], now.t),
+             restU = directionOf(before[rest.i], rest.s), restV = directionOf(before[rest.j], rest.t);
+  if (!crossOver(u, v) || !crossOver(restU, restV)) return side;
+  const float hand = glm::dot(rest.normal, glm::normalize(glm::cross(restU, restV)));
+  const vec3 across = hand * glm::normalize(glm::cross(u, v));
+  return glm::dot(side, across) < -kSureAtRest ? vec3(0) : across;
+}
+
 // Where the two vessels are nearest now, near the place where they were at rest: over the ends of tubes into
-// the next.
-Contact RestSides::nearestAlong(const Contact& rest, std::span<const Bezier> shape) const {
+// the next. Nowhere, where that leads to where they are joined.
+std::optional<Contact> RestSides::nearestAlong(const Contact& rest, std::span<const Bezier> shape) const {
   Contact now = rest;
   const bool one =
       interference_->layout().address(rest.i).vessel == interference_->layout().address(rest.j).vessel;
@@ -88,7 +103,8 @@ Contact RestSides::nearestAlong(const Contact& rest, std::span<const Bezier> sha
     };
     Contact next = now;
     const bool left = follow(next.i, next.s), right = follow(next.j, next.t);
-    if ((!left && !right) || interference_->layout().neighbours().find({next.i, next.j})) return now;
+    if (!left && !right) return now;
+    if (interference_->layout().neighbours().find({next.i, next.j})) return std::nullopt;
     const Contact there = nearestPlaceFrom(shape[next.i], shape[next.j], next.s, next.t);
     if (there.f >= now.f - kNearer) return now;
     now.i = next.i, now.j = next.j, now.s = there.s, now.t = there.t;
@@ -102,6 +118,11 @@ bool RestSides::endsAt(std::uint32_t tube, float at) const {
   return at >= 1 ? span + 1 == network_->vessel(vessel).spanCount() : span == 0;
 }
 
+bool RestSides::hasFreeEnd(std::uint32_t tube) const {
+  const Vessel& vessel = network_->vessel(interference_->layout().address(tube).vessel);
+  return (!vessel.start.valid() && endsAt(tube, 0)) || (!vessel.end.valid() && endsAt(tube, 1));
+}
+
 // Whether a place lies ahead of a vessel's end rather than beside it: what is there can go around the end.
 bool RestSides::beyondEnd(std::uint32_t tube, float at, vec3 way, std::span<const Bezier> shape) const {
   if ((at > 0 && at < 1) || !endsAt(tube, at)) return false;
@@ -109,8 +130,12 @@ bool RestSides::beyondEnd(std::uint32_t tube, float at, vec3 way, std::span<cons
   return ahead > kAhead * glm::length(way);
 }
 
-void RestSides::findChanged(std::span<const Bezier> shape, std::span<const quat> rotations,
-                            std::vector<Contact>& changed, float cosine) {
+bool RestSides::aheadOfEnd(const Contact& at, vec3 gap, std::span<const Bezier> shape) const {
+  return beyondEnd(at.i, at.s, -gap, shape) || beyondEnd(at.j, at.t, gap, shape);
+}
+
+void RestSides::find(std::span<const Bezier> shape, std::span<const quat> rotations, Which which,
+                     std::vector<Turned>& turned) {
   const std::span<const Contact> near = nearAtRest_;
   const std::size_t tasks = (near.size() + kGrain - 1) / kGrain;
   found_.resize(tasks);
@@ -119,28 +144,30 @@ void RestSides::findChanged(std::span<const Bezier> shape, std::span<const quat>
     const std::size_t end = std::min(near.size(), (task + 1) * kGrain);
     for (std::size_t k = task * kGrain; k < end; ++k) {
       const Contact& rest = near[k];
-      const vec3 gap = vec3(shape[rest.i].at(rest.s)) - vec3(shape[rest.j].at(rest.t));
-      if (glm::dot(gap, carried({rest.i, rest.j, rest.s, rest.t}, shape, rotations)) > 0) continue;
-      Contact now = nearestAlong(rest, shape);
-      const vec3 side = carried({now.i, now.j, now.s, now.t}, shape, rotations);
-      const vec3 nearest = vec3(shape[now.i].at(now.s)) - vec3(shape[now.j].at(now.t));
-      const float sure = glm::length(side);
-      if (sure < kSureAtRest) continue;
-      const float depth = glm::dot(nearest, side) / sure;
-      if (depth > cosine * glm::length(nearest) || depth > -1e-6f) continue;
-      if (beyondEnd(now.i, now.s, -nearest, shape) || beyondEnd(now.j, now.t, nearest, shape)) continue;
-      now.f = depth;
-      found_[task].push_back(now);
+      const auto gapAt = [&](const Contact& at) {
+        return vec3(shape[at.i].at(at.s)) - vec3(shape[at.j].at(at.t));
+      };
+      const bool mayGoAround = which == Which::turned && (hasFreeEnd(rest.i) || hasFreeEnd(rest.j));
+      if (!mayGoAround && glm::dot(gapAt(rest), sideOf(rest, rest, shape, rotations)) > 0) continue;
+      const std::optional<Contact> now = nearestAlong(rest, shape);
+      if (!now) continue;
+      const vec3 side = sideOf(rest, *now, shape, rotations), gap = gapAt(*now);
+      const float sure = glm::length(side), depth = glm::dot(gap, side) / sure;
+      if (!(sure >= kSureAtRest) || depth > -kNearer) continue;
+      const bool ahead = aheadOfEnd(*now, gap, shape);
+      if (which == Which::changed && (ahead || depth > kChanged * glm::length(gap))) continue;
+      found_[task].push_back({*now, side, ahead});
+      found_[task].back().at.f = depth;
     }
   });
-  changed.clear();
-  for (const auto& own : found_) changed.insert(changed.end(), own.begin(), own.end());
-  const auto pairOf = [](const Contact& contact) { return TubePair{contact.i, contact.j}; };
-  stableSort(std::span(changed), sortRoom_,
-             [&](const Contact& a, const Contact& b) { return pairOf(a) < pairOf(b); });
-  changed.erase(std::unique(changed.begin(), changed.end(),
-                            [&](const Contact& a, const Contact& b) { return pairOf(a) == pairOf(b); }),
-                changed.end());
+  turned.clear();
+  for (const auto& own : found_) turned.insert(turned.end(), own.begin(), own.end());
+  const auto pairOf = [](const Turned& place) { return TubePair{place.at.i, place.at.j}; };
+  stableSort(std::span(turned), sortRoom_,
+             [&](const Turned& a, const Turned& b) { return pairOf(a) < pairOf(b); });
+  turned.erase(std::unique(turned.begin(), turned.end(),
+                           [&](const Turned& a, const Turned& b) { return pairOf(a) == pairOf(b); }),
+               turned.end());
 }
 
 }  // namespace vasa

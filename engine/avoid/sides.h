@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,26 +33,49 @@ class RestSides {
   /// @param shape  the tubes now
   vec3 carried(const Place& at, std::span<const Bezier> shape, std::span<const quat> rotations) const;
 
-  /// Vessels that were near one another at rest and have changed sides, whether they overlap or have passed
-  /// through: the pairs of tubes in which they are nearest now (which may lie some tubes on), with the
-  /// places; sorted. What lies ahead of a vessel's end, and not beside it, is on no side of it. f of the
-  /// result is the distance of the centre lines by which they are on the wrong side, negative.
+  /// Where two vessels that were near one another at rest are nearest now, on another side.
+  struct Turned {
+    Contact at;       ///< its f is how far their centre lines are on the side at rest [m], negative
+    vec3 side;        ///< towards that at rest; its length, at most 1, is how sure that is
+    bool aheadOfEnd;  ///< of one of them, and not beside it: there they can go around one another
+  };
+
+  /// Pairs that have changed sides, whether they overlap or have passed through: those in which two vessels
+  /// are nearest now (which may lie some tubes on), sorted. What lies ahead of a vessel's end is on no side
+  /// of it, nor is what is nearest where the two are joined.
   void findChanged(std::span<const Bezier> shape, std::span<const quat> rotations,
-                   std::vector<Contact>& changed, float cosine = kChanged);
-  /// Of the angle between the side at rest and that now, from which on it counts as changed: 120 degrees.
+                   std::vector<Turned>& changed) {
+    find(shape, rotations, Which::changed, changed);
+  }
+
+  /// Pairs that have turned by more than a right angle from how they lay at rest, ahead of ends, too.
+  void findTurned(std::span<const Bezier> shape, std::span<const quat> rotations,
+                  std::vector<Turned>& turned) {
+    find(shape, rotations, Which::turned, turned);
+  }
+
+  /// Cosine of the angle between the side at rest and that now, from which on it counts as changed: 120
+  /// degrees.
   static constexpr float kChanged = -0.5f;
 
  private:
-  Contact nearestAlong(const Contact& rest, std::span<const Bezier> shape) const;
+  enum class Which { turned, changed };
+  void find(std::span<const Bezier> shape, std::span<const quat> rotations, Which which,
+            std::vector<Turned>& turned);
+  vec3 sideOf(const Contact& rest, const Contact& now, std::span<const Bezier> shape,
+              std::span<const quat> rotations) const;
+  std::optional<Contact> nearestAlong(const Contact& rest, std::span<const Bezier> shape) const;
   bool endsAt(std::uint32_t tube, float at) const;
+  bool hasFreeEnd(std::uint32_t tube) const;
   bool beyondEnd(std::uint32_t tube, float at, vec3 way, std::span<const Bezier> shape) const;
+  bool aheadOfEnd(const Contact& at, vec3 gap, std::span<const Bezier> shape) const;
   quat rotationAt(std::uint32_t tube, float t, std::span<const quat> rotations) const;
 
   const Network* network_;
   const Interference* interference_;
   std::vector<Contact> nearAtRest_;
-  std::vector<std::vector<Contact>> found_;  // a task each
-  std::vector<Contact> sortRoom_;
+  std::vector<std::vector<Turned>> found_;  // a task each
+  std::vector<Turned> sortRoom_;
 };
 
 }  // namespace vasa

@@ -19,8 +19,6 @@ namespace {
 // again. 10 µm, the least clearance, takes twice as many rounds; 1 and 5 take about as long as 3.
 constexpr float kStill = 3e-6f;
 constexpr float kMargin = 1e-4f;  // [m] contacts are held from here on, not only once they overlap
-// Cosine of the angle from which on vessels that roll around one another are turned back.
-constexpr float kRolled = 0;
 // Of the radii: a step in which something comes deeper into another, and no more lies as it lay, is too long.
 constexpr float kDeepest = 0.5f;
 // Of the radius, counted as a millimetre at least (a bone has no lumen to give way, and its field is no
@@ -141,7 +139,7 @@ struct Avoider::State {
   std::span<const BoneContact> boneContacts;
   std::vector<BoneContact> skinContacts, solids;  // solids: bones and skin together
   std::vector<BoneContact> left;                  // in bones, after the last step
-  std::vector<Contact> changed;
+  std::vector<RestSides::Turned> turned;
   std::vector<NarrowPlace> narrowed;
   AvoidReport refused;  // what steps took that were not made, since the last one that was
   VolumeKeeper::Outcome volumeOutcome;
@@ -209,8 +207,8 @@ bool Avoider::State::settled() const {
 void Avoider::State::separate(const Input& in) {
   {
     StageClock clock(in.report.solveMs);
-    sides.findChanged(interference.tubes(), in.posed.rotations, changed, kRolled);
-    pool.addSides(changed, interference.tubes(), lastShape(in), correction.motions);
+    sides.findTurned(interference.tubes(), in.posed.rotations, turned);
+    pool.addSides(turned, interference.tubes(), correction.motions);
   }
   for (unsigned round = 0; round < options.rounds; ++round) {
     {

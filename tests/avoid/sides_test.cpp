@@ -21,17 +21,22 @@ Network crossing(float angle, float height) {
   return test::built(builder);
 }
 
-std::size_t changedAfter(const Network& network, float lowered, quat turn = {1, 0, 0, 0}) {
+// The second vessel is moved, then all is turned.
+std::size_t changedAfter(const Network& network, vec3 move, quat turn = {1, 0, 0, 0}) {
   Interference interference(network);
   RestSides sides(network, interference);
   std::vector<vec4> points(network.points().begin(), network.points().end());
-  for (std::uint32_t p = network.vessels()[1].firstPoint; p < points.size(); ++p) points[p].y -= lowered;
+  for (std::uint32_t p = network.vessels()[1].firstPoint; p < points.size(); ++p) points[p] += vec4(move, 0);
   for (vec4& p : points) p = vec4(turn * vec3(p), p.w);
   const std::vector<quat> rotations(points.size(), turn);
   interference.find(points);
-  std::vector<Contact> changed;
+  std::vector<RestSides::Turned> changed;
   sides.findChanged(interference.tubes(), rotations, changed);
   return changed.size();
+}
+
+std::size_t changedAfter(const Network& network, float lowered, quat turn = {1, 0, 0, 0}) {
+  return changedAfter(network, vec3(0, -lowered, 0), turn);
 }
 
 }  // namespace
@@ -63,6 +68,38 @@ TEST_CASE("what lies ahead of a vessel's end is on no side of it") {
     REQUIRE(network.ok());
     CHECK((changedAfter(*network, 0.013f) > 0) == (ahead < 0));
   }
+}
+
+TEST_CASE("vessels that cross are known by it however far they have slid along one another") {
+  const Network network = crossing(1.2f, 0.006f);
+  for (const float slid : {0.0f, 0.02f, 0.04f}) {
+    CAPTURE(slid);
+    CHECK(changedAfter(network, vec3(slid, 0, 0)) == 0);
+    CHECK(changedAfter(network, vec3(slid, -0.013f, 0)) > 0);
+  }
+}
+
+TEST_CASE("vessels are on no side of one another where they are joined") {
+  // A branch beside its host, which turns about it as far as to the other side.
+  NetworkBuilder builder;
+  std::vector<vec4> host, branch;
+  for (int k = 0; k < 12; ++k) {
+    const float way = float(k) / 11;
+    host.emplace_back(0.2f * way - 0.1f, 0, 0, 0.004f);
+    branch.emplace_back(0.06f * way, 0.04f * way, 0, 0.002f);
+  }
+  const VesselId trunk = builder.addVessel({"host", "", VesselKind::artery}, host);
+  const VesselId side = builder.addVessel({"branch", "", VesselKind::artery}, branch);
+  builder.joinToSide({side, false}, {trunk, 4.5f});
+  const Network network = test::built(builder);
+  Interference interference(network);
+  RestSides sides(network, interference);
+  std::vector<vec4> points(network.points().begin(), network.points().end());
+  for (std::uint32_t p = network.vessels()[1].firstPoint; p < points.size(); ++p) points[p].y *= -1;
+  interference.find(points);
+  std::vector<RestSides::Turned> changed;
+  sides.findChanged(interference.tubes(), std::vector<quat>(points.size(), quat(1, 0, 0, 0)), changed);
+  CHECK(changed.empty());
 }
 
 TEST_CASE("a turn of the whole changes nothing") {

@@ -137,6 +137,32 @@ TEST_CASE("a vessel that is swept across another never passes through it") {
     }
 }
 
+TEST_CASE("a vessel whose end leaves another comes back on the side on which it was") {
+  // It crosses over another vessel, and ends shortly beyond. Drawn back, it is lowered, and then pushed
+  // forward again to where it would cross beneath.
+  const Network network =
+      separateVessels({test::line({0, 0, -0.1f}, {0, 0, 0.1f}, 0.002f, 20),
+                       test::line({-0.2f, 0.0045f, 0}, {0.006f, 0.0045f, 0}, 0.002f, 20)});
+  const auto posed = [&](float back, float down) {
+    test::Posed pose = test::atRest(network);
+    for (std::uint32_t p = network.vessels()[1].firstPoint; p < pose.points.size(); ++p)
+      pose.points[p] -= vec4(back, down, 0, 0);
+    return pose;
+  };
+  Avoider avoider(network);
+  test::Walker walker(avoider, test::atRest(network));
+  walker.seen = [&](const AvoidReport& report) {
+    CHECK(report.after.holds());
+    CHECK(report.narrowSpans == 0);
+    CHECK(test::changedSides(network, walker.posed(), walker.points()) == 0);
+  };
+  walker.to(posed(0.012f, 0));
+  walker.to(posed(0.012f, 0.007f));
+  walker.to(posed(0, 0.007f));
+  walker.to(test::atRest(network));
+  CHECK(walker.stay(360).movedMax < 1e-6f);
+}
+
 TEST_CASE("crossing vessels that lie on the other side than at rest stay there, and apart") {
   const Network network = separateVessels({test::line({-0.1f, 0, 0}, {0.1f, 0, 0}, 0.001f, 12),
                                            test::line({0, 0.003f, -0.1f}, {0, 0.003f, 0.1f}, 0.001f, 12)});

@@ -18,7 +18,7 @@ TEST_CASE("a real body's vessels part in its motions, none changes sides, and fe
   Interference interference(scene->network);
   RestSides sides(scene->network, interference);
   std::vector<Bezier> tubes(interference.layout().count());
-  std::vector<Contact> changed;
+  std::vector<RestSides::Turned> changed;
   struct Motion {
     const char* clip;
     std::uint32_t mostInBone;  // tubes of a frame, of 14,149

@@ -39,7 +39,7 @@ std::size_t changedSides(const Network& network, const Posed& posed, std::span<c
   Interference interference(network);
   RestSides sides(network, interference);
   interference.find(points);
-  std::vector<Contact> changed;
+  std::vector<RestSides::Turned> changed;
   sides.findChanged(interference.tubes(), posed.rotations, changed);
   return changed.size();
 }
