@@ -61,9 +61,13 @@ Quadratic quadraticOf(const Vessel& vessel, std::span<const vec4> points, const 
     const vec4* const own = &points[span];
     const vec4 radii(own[0].w, own[1].w, own[2].w, own[3].w),
         deltas(weightOf(span), weightOf(span + 1), weightOf(span + 2), weightOf(span + 3));
+    // From one another, not from the origin (slopes sum to 0): coordinates of a metre would round by more
+    // than a thousandth of a span of a tenth of a millimetre.
+    const std::array<vec3, 3> ways{vec3(own[1]) - vec3(own[0]), vec3(own[2]) - vec3(own[0]),
+                                   vec3(own[3]) - vec3(own[0])};
     for (const auto& [w, slopes, share] : placesOf(span, spans)) {
-      const vec4 along = slopes.x * own[0] + slopes.y * own[1] + slopes.z * own[2] + slopes.w * own[3];
-      const double r = glm::dot(w, radii), d = glm::dot(w, deltas), g = share * glm::length(vec3(along));
+      const vec3 along = slopes.y * ways[0] + slopes.z * ways[1] + slopes.w * ways[2];
+      const double r = glm::dot(w, radii), d = glm::dot(w, deltas), g = share * glm::length(along);
       q.a += g * d * d;
       q.b += g * 2 * r * d;
       q.volume += g * r * r;

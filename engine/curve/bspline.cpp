@@ -48,6 +48,11 @@ const auto kRows = [] {
 
 const Rows& bezierRows(int i, int n) { return kRows[std::min(i, kNear)][std::min(n - 1 - i, kNear)]; }
 
+Bezier combined(const Rows& rows, std::span<const vec4, 4> d) {
+  const auto combine = [d](const vec4& w) { return w.x * d[0] + w.y * d[1] + w.z * d[2] + w.w * d[3]; };
+  return {{combine(rows.b0), combine(rows.b1), combine(rows.b2), combine(rows.b3)}};
+}
+
 }  // namespace
 
 mat4 spanToBezier(std::uint32_t span, std::uint32_t spans) {
@@ -57,10 +62,7 @@ mat4 spanToBezier(std::uint32_t span, std::uint32_t spans) {
 
 Bezier bezierOfSpan(std::span<const vec4> points, std::uint32_t span) {
   assert(points.size() >= kMinPoints && span < spanCount(points));
-  const Rows& rows = bezierRows(int(span), int(spanCount(points)));
-  const vec4* d = &points[span];
-  const auto combine = [d](const vec4& w) { return w.x * d[0] + w.y * d[1] + w.z * d[2] + w.w * d[3]; };
-  return {{combine(rows.b0), combine(rows.b1), combine(rows.b2), combine(rows.b3)}};
+  return combined(bezierRows(int(span), int(spanCount(points))), points.subspan(span).first<4>());
 }
 
 SpanParameter locate(float u, std::uint32_t spans) {
@@ -94,10 +96,14 @@ float lengthOf(std::span<const vec4> points) {
   return float(sum);
 }
 
+// From each span's first point: coordinates of a metre would round by more than a thousandth of a short span.
 float volumeOf(std::span<const vec4> points) {
   double sum = 0;
   for (std::uint32_t i = 0; i < spanCount(points); ++i) {
-    const Bezier segment = bezierOfSpan(points, i);
+    const vec4 origin(vec3(points[i]), 0);
+    const std::array<vec4, 4> own{points[i] - origin, points[i + 1] - origin, points[i + 2] - origin,
+                                  points[i + 3] - origin};
+    const Bezier segment = combined(bezierRows(int(i), int(spanCount(points))), own);
     for (const auto& [t, weight] : kGauss4) {
       const float r = segment.at(t).w;
       sum += weight * kPi * r * r * glm::length(vec3(segment.derivative(t)));
