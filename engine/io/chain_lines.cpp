@@ -13,6 +13,7 @@ namespace vasa {
 namespace {
 
 constexpr float kSamePlace = 0.05f;        // of a radius
+constexpr float kTurnsBack = 0.87f;        // cosine: within 30 degrees of the way it came
 constexpr std::size_t kMostLookedAt = 64;  // samples in a slab of that width: more are another scale's
 
 struct Edge {
@@ -112,7 +113,8 @@ class Graph {
     return edges_[edge].a == node ? edges_[edge].b : edges_[edge].a;
   }
 
-  // Of the edges that meet in a place, the two that are one vessel's.
+  // Of the edges that meet in a place, the two that are one vessel's. None goes back the way it came: two
+  // lines that leave one inlet side by side are two traces of one vessel.
   void pairAtForks() {
     next_.assign(2 * edges_.size(), kNone);
     std::vector<std::pair<std::uint32_t, std::uint32_t>> at;  // place, edge
@@ -133,6 +135,7 @@ class Graph {
         for (std::size_t k = i + 1; k < own.size(); ++k) {
           const vec4 &p = points_[other(own[i], node)], &q = points_[other(own[k], node)];
           const vec3 a = glm::normalize(vec3(p - points_[node])), b = glm::normalize(vec3(q - points_[node]));
+          if (glm::dot(a, b) > kTurnsBack) continue;
           const float fit = -glm::dot(a, b) + 0.5f * std::min(p.w, q.w) / std::max(p.w, q.w);
           if (fit > best) best = fit, pair = {own[i], own[k]};
         }

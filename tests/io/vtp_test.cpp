@@ -336,6 +336,36 @@ TEST_CASE("lines of files that were put together keep apart though their numbers
         std::vector{40.0f, 40.0f});
 }
 
+// VMTK's lines, resampled each from its own outlet, share the inlet's point and no other.
+TEST_CASE("lines from one inlet that are sampled at different places do not go on in one another there") {
+  VtpLines file;
+  const auto add = [&](vec3 outlet, float step) {
+    const vec3 inlet(0), fork(0, 60, 0);
+    std::vector<vec4> samples;
+    for (float way = 0; way < glm::distance(outlet, fork); way += step)
+      samples.push_back(vec4(outlet + way * glm::normalize(fork - outlet), 4));
+    for (float way = 0.3f * step; way < 59; way += step) samples.push_back(vec4(fork - vec3(0, way, 0), 4));
+    samples.push_back(vec4(inlet, 4));
+    file.lines.emplace_back();
+    for (const vec4& sample : samples) {
+      file.lines.back().push_back(std::uint32_t(file.points.size()));
+      file.points.push_back(sample);
+    }
+  };
+  add({40, 100, 0}, 2);
+  add({-40, 90, 0}, 3);
+  const auto lines = centrelinesOfVtp(file, "iliacs", VesselKind::artery);
+  REQUIRE(lines.ok());
+  const auto made = networkOfCentrelines(*lines);
+  REQUIRE(made.ok());
+  CHECK(made->network.junctionCount() == 1);
+  float length = 0;
+  for (const auto& line : lines->lines)
+    for (std::size_t i = 1; i < line.samples.size(); ++i)
+      length += glm::distance(vec3(line.samples[i - 1]), vec3(line.samples[i]));
+  CHECK(length == doctest::Approx(60 + std::hypot(40, 40) + std::hypot(40, 30)).epsilon(0.03));
+}
+
 TEST_CASE("a way beside a vessel is a way of its own once it leaves that vessel, however short") {
   const auto linesWith = [](float aside) {
     std::vector<vec4> trunk, loop;
