@@ -33,11 +33,16 @@ void judge(ElementReport& report, float meanRadius) {
                               std::to_string(1000 * report.error.p95).substr(0, 4) + " mm off");
 }
 
-// The radius of a tube of the same area, ends and all, and the length of the element's vessels.
-float meanRadius(const Assembly& assembly, std::uint32_t element, double area) {
+double vesselsLength(const Assembly& assembly, std::uint32_t element) {
   double length = 0;
   for (const std::uint32_t v : assembly.vesselsOf[element])
     length += lengthOf(assembly.network.pointsOf(assembly.network.vessels()[v]));
+  return length;
+}
+
+// The radius of a tube of the same area, ends and all, and the length of the element's vessels.
+float meanRadius(const Assembly& assembly, std::uint32_t element, double area) {
+  const double length = vesselsLength(assembly, element);
   return length > 0 ? float(0.5 * (std::sqrt(length * length + 2 * area / double(kPi)) - length)) : 0.0f;
 }
 
@@ -80,6 +85,15 @@ void doubt(ElementReport& report, float radius, const TriangleMesh& mesh) {
                    " um to which sections are raised: another unit (--unit)? Centre lines keep their radii");
 }
 
+// Of a centre line, which may be an arteriole's.
+void doubtTold(ElementReport& report, float radius, double length) {
+  doubt(report, std::max(radius, kThinnestVessel), {});
+  if (report.vessels == 0 || length <= kLongestInRadii * double(radius)) return;
+  report.status = ElementStatus::doubtful;
+  append(report.reason, "it is " + std::to_string(std::lround(length / double(radius))) +
+                            " of its radii long, as no vessel is: give radii and places in one unit");
+}
+
 ElementReport reportElement(const Assembly& assembly, const SourceElement& source, std::uint32_t index,
                             std::span<const SourceElement> elements, const ElementOutcome& outcome,
                             const ElementError& error) {
@@ -105,8 +119,8 @@ ElementReport reportElement(const Assembly& assembly, const SourceElement& sourc
   judge(report, roughRadius(source.element.mesh));
   if (!source.element.mesh.empty())
     doubt(report, meanRadius(assembly, index, error.area), source.element.mesh);
-  else  // told, and may be an arteriole's
-    doubt(report, std::max(toldRadius(assembly, index), kThinnestVessel), source.element.mesh);
+  else
+    doubtTold(report, toldRadius(assembly, index), vesselsLength(assembly, index));
   return report;
 }
 

@@ -11,10 +11,13 @@ namespace vasa {
 /// ok: at least kOkCoverage of the mesh's area is covered and 95 % of it lies within kOkError, or within half
 /// the vessel's mean radius, of a wall. partial: at least kPartialCoverage is covered. failed: the rest.
 /// doubtful: what would be ok or partial and is no human vessel: wider than kWidestVessel (centre lines,
-/// too), or thinner than any that a mesh shows (another unit, a solid, a heart's chamber), or a flat sheet.
+/// too), or thinner than any that a mesh shows (another unit, a solid, a heart's chamber), or a flat sheet; a
+/// centre line of more than kLongestInRadii.
 enum class ElementStatus { ok, partial, failed, doubtful };
 /// [m] mean radius: a large aneurysm of the aorta; what a surface's sections are raised to
 constexpr float kWidestVessel = 0.03f, kThinnestVessel = ElementOptions{}.minimumRadius;
+/// The great saphenous vein is some 400 of its radii long; metres beside millimetres make that 400,000.
+constexpr double kLongestInRadii = 10'000;
 /// Of a mesh's surface, either side counting the same: the length of the mean normal. Around a tube it is 2 /
 /// π, in a plane 1, and around a flattened vein four times as wide as high this.
 constexpr double kFlat = 0.92;

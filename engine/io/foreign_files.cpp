@@ -20,7 +20,10 @@ constexpr std::array<std::string_view, 20> kModels{
     ".abc", ".ma",  ".mb",  ".max", ".c4d", ".x",     ".pmx", ".3mf",  ".wrl",  ".x3d"};
 constexpr std::array<std::string_view, 4> kParts{".step", ".stp", ".iges", ".igs"};
 constexpr std::array<std::string_view, 5> kGrids{".vtu", ".vti", ".vtr", ".vts", ".vtm"};
-constexpr std::array<std::string_view, 6> kVolumes{".nrrd", ".nii", ".gz", ".mha", ".mhd", ".dcm"};
+constexpr std::array<std::string_view, 5> kVolumes{".nrrd", ".nii", ".mha", ".mhd", ".dcm"};
+constexpr std::array<std::string_view, 4> kPacked{".gz", ".zip", ".7z", ".rar"};
+constexpr std::array<std::string_view, 4> kSlicer{".mrk", ".fcsv", ".mrml", ".mrb"};
+constexpr std::array<std::string_view, 4> kSimVascular{".pth", ".paths", ".ctgr", ".mdl"};
 constexpr std::array<std::string_view, 5> kTables{".csv", ".txt", ".xyz", ".tsv", ".xlsx"};
 constexpr std::array<std::string_view, 5> kCaptures{".c3d", ".trc", ".amc", ".asf", ".htr"};
 constexpr std::array<std::string_view, 5> kVessels{".obj", ".stl", ".vtp", ".vtk", ".swc"};
@@ -32,6 +35,12 @@ std::string vesselRemedy(const std::string& extension) {
     return "; extract its surface (ParaView: Extract Surface) and save it as .vtp";
   if (isAny(extension, kVolumes))
     return "; make a surface of the labelled volume first (3D Slicer: export the segmentation as .stl or .obj)";
+  if (isAny(extension, kSlicer))
+    return "; save the model in 3D Slicer as .stl, or the centre lines with radii (Extract Centerline: "
+           "Centerline model) as .vtp";
+  if (isAny(extension, kSimVascular)) return "; export the model in SimVascular as .vtp or .stl";
+  if (extension == ".traces") return "; export it in SNT as .swc";
+  if (extension == ".eswc") return "; name it .swc: columns after the seventh are passed over";
   if (isAny(extension, kTables))
     return "; write centre lines as .swc, a line `id type x y z radius parent` for each sample";
   if (extension == ".bvh" || isAny(extension, kCaptures)) return "; it is a motion, and no vessels";
@@ -71,6 +80,10 @@ bool isGltfFile(const std::filesystem::path& path) {
 
 std::string remedyFor(const std::filesystem::path& path, FileUse use) {
   const std::string extension = extensionOf(path);
+  // a.nii.gz, a.mrk.json: what stands before tells.
+  if (extension == ".gz" || extension == ".json")
+    if (std::string inner = remedyFor(path.stem(), use); !inner.empty()) return inner;
+  if (isAny(extension, kPacked)) return "; unpack it first";
   return use == FileUse::vessels ? vesselRemedy(extension)
          : use == FileUse::body  ? bodyRemedy(extension)
                                  : motionRemedy(extension);

@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::size_t kMaximumSwcBytes = std::size_t(1) << 30;
 constexpr const char* kLine =
-    "id type x y z radius parent, with blanks or commas between and decimal points; # begins a comment";
+    "id type x y z radius parent, with blanks or commas between and decimal points (a radius that is not known "
+    "is 0); # begins a comment";
 
 std::string_view nextCell(std::string_view& line) {
   const std::string_view cell = line.substr(0, line.find(','));

@@ -103,7 +103,8 @@ class SectionReader {
       values.resize(amount);
       for (double& value : values)
         if (const std::string_view text = word(); !parseNumber(text, value))
-          breaks(place, "has no finite number where it has '" + std::string(text.substr(0, 40)) + "'");
+          breaks(place, "has no finite number where it has '" + std::string(text.substr(0, 40)) +
+                            "'; mend it (0 is a radius that is not known)");
       return values;
     }
     if (const std::size_t end = rest_.find('\n'); end != rest_.npos)

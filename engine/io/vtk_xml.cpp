@@ -36,7 +36,7 @@ std::vector<double> asciiNumbers(std::string_view text, const std::string& place
   for (std::string_view word = nextWord(text, " \t\r\n"); !word.empty(); word = nextWord(text, " \t\r\n"))
     if (!parseNumber(word, values.emplace_back()))
       breaks(place, "value " + std::to_string(values.size() - 1) + " is no finite number: '" +
-                        std::string(word.substr(0, 40)) + "'");
+                        std::string(word.substr(0, 40)) + "'; mend it (0 is a radius that is not known)");
   return values;
 }
 
