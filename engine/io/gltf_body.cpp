@@ -6,6 +6,7 @@
 #include <set>
 
 #include "body/clip_reach.h"
+#include "body/coarser_levels.h"
 #include "body/idle_joints.h"
 #include "body/rig.h"
 #include "body/skin_recognition.h"
@@ -296,6 +297,9 @@ Body bodyOf(const Asset& asset) {
   tellIdleJoints(asset, joints, body);
   tellNamesApart(body.skeleton);
   tellWhatIsOpen(asset, joints, body);
+  if (const auto left = leaveOutCoarserLevels(body); !left.empty())
+    logInfo(asset.name + ": " + std::to_string(left.size()) + " coarser levels of detail are left out: '" +
+            left.front() + "' first");
   recogniseSkin(body);
   return body;
 }

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "body/bone_field.h"
+#include "body/coarser_levels.h"
 #include "body/doll.h"
 #include "body/mesh_role.h"
 #include "body/skin_field.h"
@@ -116,4 +117,14 @@ TEST_CASE("named skins, bones and what encloses nothing are left alone") {
   body.meshes = {sleeve(body, "Hat", {"neck", "head"}, 0.02f)};
   recogniseSkin(body);
   CHECK(body.meshes[0].name == "Hat");
+}
+
+TEST_CASE("of levels of detail the finest is the body, also where its materials are told apart") {
+  Body body = dollBody("vrm");
+  for (const char* name : {"Body_LOD2", "Body_LOD0/skin", "Body_LOD0/cloth", "Body_LOD1/skin", "Boots_LOD1",
+                           "explodes2", "explodes1"})
+    body.meshes.push_back(whole(body, name, 0.1f));
+  body.meshes.erase(body.meshes.begin(), body.meshes.end() - 7);
+  CHECK(leaveOutCoarserLevels(body) == std::vector<std::string>{"Body_LOD2", "Body_LOD1/skin"});
+  CHECK(body.meshes.size() == 5);
 }
