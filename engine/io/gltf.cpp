@@ -7,6 +7,7 @@
 #include "io/foreign_files.h"
 #include "io/gltf_asset.h"
 #include "io/gltf_body.h"
+#include "io/gltf_check.h"
 #include "io/gltf_container.h"
 #include "io/gltf_rule.h"
 
@@ -46,6 +47,11 @@ Result<std::vector<std::byte>> bytesOf(const std::filesystem::path& path) {
   return bytes;
 }
 
+GltfSummary summaryOf(const gltf::Asset& asset) {
+  const auto& model = asset.model;
+  return {model.nodes.size(), model.meshes.size(), model.skins.size(), model.animations.size()};
+}
+
 // Under another name.
 bool looksLikeGltf(std::span<const std::byte> bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -77,12 +83,18 @@ Result<std::vector<MeshElement>> readGltfElements(const std::filesystem::path& p
   return bytes ? parseGltfElements(std::move(*bytes), path) : bytes.error();
 }
 
+Result<GltfSummary> countGltf(const std::filesystem::path& path) {
+  auto bytes = bytesOf(path);
+  if (!bytes) return bytes.error();
+  return parse<GltfSummary>(std::move(*bytes), path, summaryOf);
+}
+
 Result<GltfSummary> checkGltf(const std::filesystem::path& path) {
   auto bytes = bytesOf(path);
   if (!bytes) return bytes.error();
   return parse<GltfSummary>(std::move(*bytes), path, [](const gltf::Asset& asset) {
-    const auto& model = asset.model;
-    return GltfSummary{model.nodes.size(), model.meshes.size(), model.skins.size(), model.animations.size()};
+    for (const auto& animation : asset.model.animations) gltf::checkAnimationData(asset, animation);
+    return summaryOf(asset);
   });
 }
 

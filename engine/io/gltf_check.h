@@ -11,8 +11,11 @@ void checkStructure(const JsonView& root);
 /// Whether the file asks for no more than one of so many bytes may. Needs checkStructure.
 void checkAmounts(const JsonView& root, std::size_t bytes);
 
-/// Everything that needs the buffers' bytes.
+/// Everything that needs the buffers' bytes, but for the keys of animations.
 void checkData(const Asset& asset);
+
+/// The keys of one animation, for which no body need be refused.
+void checkAnimationData(const Asset& asset, const Model::Animation& animation);
 
 /// Whether an accessor's buffer view has a stride of its own. Only vertex attributes may: other readers take
 /// what else has one as packed, and see other numbers than we.

@@ -239,21 +239,6 @@ void checkQuaternions(const Asset& asset, int accessor, bool cubic) {
   }
 }
 
-void checkAnimationData(const Asset& asset) {
-  std::set<int> times;
-  std::set<std::pair<int, bool>> rotations;
-  for (const auto& animation : asset.model.animations) {
-    for (const auto& sampler : animation.samplers) times.insert(sampler.input);
-    for (const auto& channel : animation.channels)
-      if (channel.path == Model::Path::rotation) {
-        const auto& sampler = animation.samplers[std::size_t(channel.sampler)];
-        rotations.emplace(sampler.output, sampler.interpolation == Interpolation::cubic);
-      }
-  }
-  for (const int accessor : times) checkTimes(asset, accessor);
-  for (const auto& [accessor, cubic] : rotations) checkQuaternions(asset, accessor, cubic);
-}
-
 }  // namespace
 
 void checkData(const Asset& asset) {
@@ -264,7 +249,15 @@ void checkData(const Asset& asset) {
   }
   checkMeshData(asset);
   checkInverseBinds(asset);
-  checkAnimationData(asset);
+}
+
+void checkAnimationData(const Asset& asset, const Model::Animation& animation) {
+  for (const auto& sampler : animation.samplers) checkTimes(asset, sampler.input);
+  for (const auto& channel : animation.channels) {
+    if (channel.path != Model::Path::rotation) continue;
+    const auto& sampler = animation.samplers[std::size_t(channel.sampler)];
+    checkQuaternions(asset, sampler.output, sampler.interpolation == Interpolation::cubic);
+  }
 }
 
 }  // namespace vasa::gltf

@@ -8,6 +8,7 @@
 
 #include "core/log.h"
 #include "io/gltf_accessor.h"
+#include "io/gltf_check.h"
 #include "io/gltf_rule.h"
 
 namespace vasa::gltf {
@@ -67,6 +68,14 @@ void checkKeyCount(const Model& model, std::size_t bytes) {
     }
 }
 
+void checkLength(const Clip& clip) {
+  const double seconds = double(clip.end) - clip.start;
+  if (seconds * clip.framesPerSecond > kMaximumFrames)
+    breaks("its keys",
+           "last " + std::to_string(float(seconds)) + " s: more than the 1000000 frames that are accepted",
+           "check the key times, which are in seconds");
+}
+
 Clip readClip(const Asset& asset, const Model::Animation& animation,
               const std::vector<JointId>& jointOfNode) {
   std::map<std::uint32_t, JointTracks> byJoint;
@@ -95,6 +104,7 @@ Clip readClip(const Asset& asset, const Model::Animation& animation,
     clip.tracks.push_back(std::move(tracks));
   }
   clip.framesPerSecond = framesPerSecondOf(longest);
+  checkLength(clip);
   return clip;
 }
 
@@ -138,22 +148,30 @@ std::vector<Clip> readClips(const Asset& asset, const std::vector<JointId>& join
   std::vector<Clip> clips;
   ClipNames names;
   std::vector<std::string> moveNone;
+  std::size_t broken = 0;
+  std::string why;
   for (std::size_t i = 0; i < asset.model.animations.size(); ++i) {
-    Clip clip = readClip(asset, asset.model.animations[i], jointOfNode);
+    const Model::Animation& animation = asset.model.animations[i];
+    Clip clip;
+    try {
+      checkAnimationData(asset, animation);
+      clip = readClip(asset, animation, jointOfNode);
+    } catch (const BrokenRule& rule) {
+      if (broken++ == 0)
+        why = "\"" + animation.name + "\": " + rule.place + ": " + rule.rule + "; " + rule.remedy;
+      continue;
+    }
     if (clip.name.empty()) clip.name = "animation " + std::to_string(i);
     if (!(clip.end >= clip.start)) {
       moveNone.push_back(clip.name);
       continue;
     }
-    const double frames = (double(clip.end) - clip.start) * clip.framesPerSecond;
-    if (!(frames <= kMaximumFrames))
-      breaks("/animations/" + std::to_string(i),
-             "lasts " + std::to_string(clip.end - clip.start) +
-                 " s: more than the 1000000 frames that are accepted",
-             "check the key times, which are in seconds");
     clip.name = names.unique(clip.name);
     clips.push_back(std::move(clip));
   }
+  if (broken > 0)
+    logWarning(asset.name + ": " + std::to_string(broken) + " of " +
+               std::to_string(asset.model.animations.size()) + " animations are left out: " + why);
   if (!moveNone.empty())
     logInfo(
         asset.name + ": " + std::to_string(moveNone.size()) + " of " +

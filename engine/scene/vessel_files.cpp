@@ -138,7 +138,7 @@ bool holdsSurfaces(const std::filesystem::path& path) {
 Result<bool> holdsSurfacesAlone(const std::filesystem::path& path) {
   if (!holdsSurfaces(path)) return false;
   if (!isGltfFile(path)) return true;
-  const auto summary = checkGltf(path);
+  const auto summary = countGltf(path);
   if (!summary) return summary.error();
   return summary->skins == 0;
 }
