@@ -27,8 +27,8 @@ bool farFromLinks(const SpineSet& spines, vec3 p, float margin) {
 
 }  // namespace
 
-Result<void> checkBelongs(const Body& body, const SpineSet& spines, std::span<const vec4> points,
-                          std::string_view name) {
+Result<float> checkBelongs(const Body& body, const SpineSet& spines, std::span<const vec4> points,
+                           std::string_view name) {
   const float height = body.height();
   const SkinnedMesh* skin = skinOf(body);
   const std::size_t samples = std::min(points.size(), kPlacesAsked);
@@ -43,7 +43,7 @@ Result<void> checkBelongs(const Body& body, const SpineSet& spines, std::span<co
     outside += skin ? outsideSkin(p) : farFromLinks(spines, p, kFarHeights * height);
   }
   const float share = float(outside) / float(samples);
-  if (share <= kMostOutside) return {};
+  if (share <= kMostOutside) return share;
   return badInput(fmt::format(
       "{}: these vessels do not belong to the body {}: {:.0f} % of them lie {} at rest. Choose the body that they "
       "were made for; vasa fit carries them from that one to this, vasa place moves what stands elsewhere (vasa help bodies)",

@@ -163,8 +163,8 @@ Result<Bound> bindAnew(const Body& body, std::span<const vec4> points, std::stri
         fmt::format("{}: {} joints; a body may have 65535", body.name, body.skeleton.joints.size()));
   Binding binding{std::move(*spines), std::uint32_t(points.size()), {}, {}, {}};
   const BoneField bones(body, binding.spines);
-  if (const Result<void> belongs = checkBelongs(body, binding.spines, points, name); !belongs)
-    return belongs.error();
+  const Result<float> outside = checkBelongs(body, binding.spines, points, name);
+  if (!outside) return outside.error();
   chooseArcs(binding.spines, body, bones, points);
   std::vector<vec4> places(points.begin(), points.end());
   for (const AxialBone& bone : body.axialBones) places.emplace_back(bone.place, 0.0f);
@@ -185,7 +185,7 @@ Result<Bound> bindAnew(const Body& body, std::span<const vec4> points, std::stri
       appendRecords(binder.bindAlong(points.size() + k, bone.head), binding.axialBones);
   }
   const float behind = shareLeftBehind(body, binding, points);
-  return Bound{std::move(binding), behind};
+  return Bound{std::move(binding), behind, *outside};
 }
 
 // Where each point's records begin, and behind the last.
@@ -203,6 +203,11 @@ Binding warned(Bound bound, const Body& body, std::string_view name) {
         "{}: {:.0f} % of these vessels stay in the rest pose while {} moves; bind its skin's vertices "
         "to the joints that move it, or leave out meshes that follow other joints",
         name, 100 * bound.behind, body.name));
+  if (bound.outside > kToldOutside)
+    logWarning(fmt::format(
+        "{}: {:.0f} % of these vessels lie outside {} at rest, and move with what is nearest to them; vasa fit "
+        "carries vessels from one body to another, vasa place moves them",
+        name, 100 * bound.outside, body.name));
   return std::move(bound.binding);
 }
 

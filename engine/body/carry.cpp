@@ -168,7 +168,8 @@ class Carrier {
     // Among the skin's points a few vessels would not be noticed.
     const auto spines = deriveSpines(from_.skeleton, from_.name);
     if (!spines) return spines.error();
-    if (auto belongs = checkBelongs(from_, *spines, network_.points(), name_); !belongs) return belongs;
+    if (auto belongs = checkBelongs(from_, *spines, network_.points(), name_); !belongs)
+      return belongs.error();
     auto binding = bindPoints(from_, rest, name_, ties);
     if (!binding) return binding.error();
     binding_ = std::move(*binding);

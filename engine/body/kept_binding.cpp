@@ -27,7 +27,7 @@ std::optional<Bound> findBound(std::uint64_t key, const Body& body) {
   auto spines = kept ? deriveSpines(body.skeleton, body.name) : Result<SpineSet>(SpineSet{});
   if (!kept || !spines) return {};
   ByteReader in(*kept);
-  Bound bound{{std::move(*spines), 0, {}, {}, {}}, 0};
+  Bound bound{{std::move(*spines), 0, {}, {}, {}}, 0, 0};
   for (SpineJoint& joint : bound.binding.spines.joints) {
     std::uint8_t spreads = 0;
     if (!in.take(joint.arc) || !in.take(spreads)) return {};
@@ -36,8 +36,8 @@ std::optional<Bound> findBound(std::uint64_t key, const Body& body) {
   using Raw = std::array<std::uint16_t, 3>;
   static_assert(sizeof(Raw) == sizeof(BindingRecord));
   std::vector<Raw> records, axialBones;
-  if (!in.take(bound.behind) || !in.take(bound.binding.pointCount) || !in.takeAll(records) ||
-      !in.takeAll(bound.binding.firstRecord) || !in.takeAll(axialBones))
+  if (!in.take(bound.behind) || !in.take(bound.outside) || !in.take(bound.binding.pointCount) ||
+      !in.takeAll(records) || !in.takeAll(bound.binding.firstRecord) || !in.takeAll(axialBones))
     return {};
   const auto unpack = [](const std::vector<Raw>& from, std::vector<BindingRecord>& to) {
     to.reserve(from.size());
@@ -55,6 +55,7 @@ void keepBound(std::uint64_t key, const Bound& bound) {
     out.add(std::uint8_t(joint.spreadsTwist));
   }
   out.add(bound.behind);
+  out.add(bound.outside);
   out.add(bound.binding.pointCount);
   out.addAll(std::span<const BindingRecord>(bound.binding.records));
   out.addAll(std::span<const std::uint32_t>(bound.binding.firstRecord));

@@ -9,7 +9,8 @@ namespace vasa {
 /// What binding a network to a body gave.
 struct Bound {
   Binding binding;
-  float behind = 0;  ///< share of the vessels that stay in the rest pose (body/stillness.h)
+  float behind = 0;   ///< share of the vessels that stay in the rest pose (body/stillness.h)
+  float outside = 0;  ///< share that lies outside the body at rest (body/belonging.h)
 };
 
 /// Of a network and a body (core/kept.h).

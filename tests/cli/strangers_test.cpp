@@ -454,6 +454,23 @@ TEST_CASE(
                 told);
 }
 
+TEST_CASE("some vessels that lie outside a body are told of") {
+  const TemporaryFolder folder;
+  std::string swc;
+  for (int vessel = 0; vessel < 10; ++vessel)
+    for (int i = 0; i <= 1; ++i) {
+      const float x = vessel < 9 ? 0.01f * float(vessel - 4) : 0.9f;  // the last beside the hand
+      const int id = 2 * vessel + i + 1;
+      swc += std::to_string(id) + " 10 " + std::to_string(x) + (i ? " 1.2" : " 1.0") + " -0.03 0.002 " +
+             std::to_string(i ? id - 1 : -1) + "\n";
+    }
+  const auto outcome = runProgram({"check", "--body", write(folder, "person.glb", personGlb()), "--network",
+                                   write(folder, "lines.swc", swc), "--frames", "0"});
+  CHECK_MESSAGE(outcome.exit == 0, outcome.err);
+  CHECK_MESSAGE(outcome.err.find("10 % of these vessels lie outside person.glb at rest") != std::string::npos,
+                outcome.err);
+}
+
 TEST_CASE("rest is the pose that a skin is bound in, for fit as for what it is given to") {
   const TemporaryFolder folder;
   const auto lines = write(folder, "vessels.swc", personVessels());
