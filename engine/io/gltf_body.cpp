@@ -7,6 +7,7 @@
 
 #include "body/clip_reach.h"
 #include "body/coarser_levels.h"
+#include "body/copied_joints.h"
 #include "body/idle_joints.h"
 #include "body/rig.h"
 #include "body/skin_recognition.h"
@@ -295,6 +296,9 @@ Body bodyOf(const Asset& asset) {
       breaks("/nodes", "the transform of joint \"" + joint.name + "\" leaves the range of numbers",
              kExportAgain);
   tellIdleJoints(asset, joints, body);
+  if (const std::size_t copies = uniteCopiedJoints(body); copies > 0)
+    logInfo(asset.name + ": " + std::to_string(copies) +
+            " joints of further skeletons repeat others by name and place, and are one with them");
   tellNamesApart(body.skeleton);
   tellWhatIsOpen(asset, joints, body);
   if (const auto left = leaveOutCoarserLevels(body); !left.empty())

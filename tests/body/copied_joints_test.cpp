@@ -1,0 +1,65 @@
+#include "body/copied_joints.h"
+
+#include <doctest/doctest.h>
+
+#include "body/person.h"
+#include "body/skinning.h"
+
+using namespace vasa;
+using namespace vasa::test;
+
+namespace {
+
+// The body's joints once more, and a coat of its first mesh on them.
+void dress(Body& body, vec3 aside) {
+  const auto count = std::uint32_t(body.skeleton.joints.size());
+  for (std::uint32_t j = 0; j < count; ++j) {
+    Skeleton::Joint copy = body.skeleton.joints[j];
+    if (copy.parent.valid())
+      copy.parent.value += count;
+    else
+      copy.rest.translation += aside;
+    copy.restWorld[3] += vec4(aside, 0);
+    body.skeleton.joints.push_back(copy);
+  }
+  SkinnedMesh coat = body.meshes.front();
+  coat.name = "coat";
+  for (SkinInfluence& influence : coat.influences)
+    for (std::uint16_t& joint : influence.joints) joint = std::uint16_t(joint + count);
+  body.meshes.push_back(coat);
+}
+
+}  // namespace
+
+TEST_CASE("clothes on a copy of the skeleton move with the body's, and so does what the copy alone has") {
+  Body body = person();
+  const std::size_t joints = body.skeleton.joints.size();
+  const JointId hips = body.skeleton.find("hips"), elbow = body.skeleton.find("leftLowerArm");
+  dress(body, vec3(0));
+  Skeleton::Joint skirt = body.skeleton.joints[hips.value];
+  skirt.name = "skirt";
+  skirt.parent = {std::uint32_t(joints) + hips.value};
+  skirt.rest = {};
+  body.skeleton.joints.push_back(skirt);
+  JointTracks bend;
+  bend.joint = {std::uint32_t(joints) + elbow.value};  // keyed in the copy alone
+  bend.rotation = {Interpolation::linear, {0}, {glm::angleAxis(1.0f, vec3(0, 1, 0))}};
+  Clip clip;
+  clip.tracks = {bend};
+  body.clips = {clip};
+  CHECK(uniteCopiedJoints(body) == joints);
+  REQUIRE(body.skeleton.joints.size() == joints + 1);
+  CHECK(body.skeleton.joints.back().parent == hips);
+  CHECK(body.clips[0].tracks[0].joint == elbow);
+  const SkinnedMesh &skin = body.meshes.front(), &coat = body.meshes.back();
+  for (std::size_t v = 0; v < skin.influences.size(); ++v)
+    CHECK(coat.influences[v].joints == skin.influences[v].joints);
+}
+
+TEST_CASE("somebody else of the same names who stands beside is no copy") {
+  Body body = person();
+  const std::size_t joints = body.skeleton.joints.size();
+  dress(body, {1, 0, 0});
+  CHECK(uniteCopiedJoints(body) == 0);
+  CHECK(body.skeleton.joints.size() == 2 * joints);
+}
