@@ -52,9 +52,9 @@ Result<Opened> whatIs(const std::filesystem::path& path) {
   if (extension == ".json") return Opened::scene;
   if (isMotionFile(path.string())) return Opened::motion;
   if (isGltfFile(path)) {
-    const auto summary = checkGltf(path);
+    const auto summary = countGltf(path);
     if (!summary) return summary.error();
-    return summary->skins == 0 ? Opened::vessels : Opened::body;
+    return summary->body ? Opened::body : Opened::vessels;
   }
   if (extension == ".vasa" || holdsSurfaces(path) || holdsCentrelines(path)) return Opened::vessels;
   return Error{Fault::usage, path.string() + ": this is no kind of file that the app opens; " + kOpenable};

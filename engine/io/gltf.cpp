@@ -49,7 +49,8 @@ Result<std::vector<std::byte>> bytesOf(const std::filesystem::path& path) {
 
 GltfSummary summaryOf(const gltf::Asset& asset) {
   const auto& model = asset.model;
-  return {model.nodes.size(), model.meshes.size(), model.skins.size(), model.animations.size()};
+  return {model.nodes.size(), model.meshes.size(), model.skins.size(), model.animations.size(),
+          gltf::holdsBody(asset)};
 }
 
 // Under another name.

@@ -38,6 +38,7 @@ Result<std::vector<MeshElement>> parseGltfElements(std::vector<std::byte> bytes,
 
 struct GltfSummary {
   std::size_t nodes = 0, meshes = 0, skins = 0, animations = 0;
+  bool body = false;  ///< whether readBody finds a skeleton
 };
 
 /// Counts what is in a file that can be read.

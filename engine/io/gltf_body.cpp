@@ -269,11 +269,21 @@ SkinnedMesh onSkin(Geometry geometry, const BodySkeleton::Skin& skin) {
   return out;
 }
 
+bool holdsBody(const Asset& asset) {
+  if (!asset.model.skins.empty()) return true;
+  try {
+    const Skeleton pieces = buildSkeleton(asset, resolveNodes(asset.model)).skeleton;
+    return peopleIn(pieces) > 0 && legsOf(rigOf(pieces)) > 0;
+  } catch (const BrokenRule&) {
+    return false;  // nodes that may carry meshes and no body
+  }
+}
+
 Body bodyOf(const Asset& asset) {
-  if (asset.model.skins.empty())
+  if (!holdsBody(asset))
     breaks("/skins", "a body needs a skeleton, and the file has no skin",
-           "export the body with its armature; vessels are read by vasa convert, and the skin of a scan "
-           "without a skeleton by vasa fit --from");
+           "bind its meshes to an armature (Blender: Parent > Armature Deform) and export both; vessels are "
+           "read by vasa convert, and the skin of a scan without a skeleton by vasa fit --from");
   NodeTree tree = resolveNodes(asset.model);
   BodySkeleton joints = buildSkeleton(asset, tree);
   if (const float unit = likelyUnitOf(asset, joints.skeleton); unit != 1) {

@@ -12,6 +12,9 @@
 // What readBody and readGltfElements make of a checked file; see io/gltf.h for what they promise.
 namespace vasa::gltf {
 
+/// Whether there is a skeleton: a skin's, or without any skin that of rigid pieces that hang on one another
+/// as a person's limbs do, by their names and places.
+bool holdsBody(const Asset& asset);
 Body bodyOf(const Asset& asset);
 std::vector<MeshElement> elementsOf(const Asset& asset);
 

@@ -26,6 +26,12 @@ std::vector<bool> animatedNodes(const Model& model) {
   return animated;
 }
 
+// Where nothing is skinned, rigid pieces hang on one another: a node is a joint unless it only holds a mesh
+// at its parent's place.
+bool turnsOnItsOwn(const Model::Node& node) {
+  return !node.children.empty() || !node.matrix.empty() || node.transform.translation != vec3(0);
+}
+
 class Members {
  public:
   Members(const Model& model, const NodeTree& tree) : tree_(tree), is_(model.nodes.size()) {
@@ -38,7 +44,7 @@ class Members {
       const auto i = std::size_t(*it);
       const auto& node = model.nodes[i];
       if (is_[i] || (node.mesh >= 0 && node.skin < 0)) carries[i] = true;
-      if (carries[i] && animated[i]) is_[i] = true;
+      if (carries[i] && (animated[i] || (model.skins.empty() && turnsOnItsOwn(node)))) is_[i] = true;
       if (carries[i] && tree.parent[i] >= 0) carries[std::size_t(tree.parent[i])] = true;
     }
     fillGaps();

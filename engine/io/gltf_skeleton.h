@@ -27,7 +27,8 @@ struct BodySkeleton {
 
 /// Joints are the joints of all skins, and besides them every node that moves one of them or a mesh and
 /// cannot be folded into rootTransform: nodes between joints, animated nodes above joints or meshes, and,
-/// where the root joints hang under different transforms, all nodes above them.
+/// where the root joints hang under different transforms, all nodes above them. In a file without skins, what
+/// carries meshes, or is a mesh with a place of its own.
 ///
 /// The rest pose is the pose that the skin is bound in, for every command: what the nodes say may be any
 /// frame of a motion (io/gltf_binding.h). Where that is so up to one transform (nearly every skin), that

@@ -140,7 +140,7 @@ Result<bool> holdsSurfacesAlone(const std::filesystem::path& path) {
   if (!isGltfFile(path)) return true;
   const auto summary = countGltf(path);
   if (!summary) return summary.error();
-  return summary->skins == 0;
+  return !summary->body;
 }
 
 bool holdsCentrelines(const std::filesystem::path& path) {

@@ -367,3 +367,47 @@ TEST_CASE("what is no body is refused") {
   flat.document["nodes"][1]["scale"] = {1, 0, 1};
   CHECK(refusal(flat).find("/nodes/1: the joint's scale is 0 at rest") != std::string::npos);
 }
+
+TEST_CASE("rigid pieces that hang on one another as a person's limbs are a body; others are not") {
+  struct Piece {
+    const char* name;
+    int parent;
+    vec3 place;
+  };
+  const std::vector<Piece> pieces{{"Hips", -1, {0, 1, 0}},           {"Spine", 0, {0, 0.2f, 0}},
+                                  {"Head", 1, {0, 0.4f, 0}},         {"LeftArm", 1, {0.2f, 0.3f, 0}},
+                                  {"LeftForeArm", 3, {0.3f, 0, 0}},  {"LeftHand", 4, {0.25f, 0, 0}},
+                                  {"RightArm", 1, {-0.2f, 0.3f, 0}}, {"RightForeArm", 6, {-0.3f, 0, 0}},
+                                  {"RightHand", 7, {-0.25f, 0, 0}},  {"LeftUpLeg", 0, {0.1f, 0, 0}},
+                                  {"LeftLeg", 9, {0, -0.45f, 0}},    {"LeftFoot", 10, {0, -0.45f, 0}},
+                                  {"RightUpLeg", 0, {-0.1f, 0, 0}},  {"RightLeg", 12, {0, -0.45f, 0}},
+                                  {"RightFoot", 13, {0, -0.45f, 0}}};
+  const TemporaryFolder folder;
+  for (const bool apart : {true, false}) {  // false: the groups of an atlas
+    GltfBuilder file = triangleFile();
+    file.document["nodes"] = json::array();
+    for (const Piece& piece : pieces) {
+      const auto node = file.document["nodes"].size();
+      const vec3 place = apart ? piece.place : vec3(0);
+      file.add("nodes", {{"name", piece.name}, {"translation", {place.x, place.y, place.z}}});
+      if (piece.parent >= 0) file.document["nodes"][std::size_t(piece.parent)]["children"].push_back(node);
+    }
+    // Each holds a mesh at its own place.
+    for (std::size_t node = 0; node < pieces.size(); ++node) {
+      file.document["nodes"][node]["children"].push_back(file.document["nodes"].size());
+      file.add("nodes", {{"mesh", 0}});
+    }
+    file.document["scenes"][0]["nodes"] = {0};
+    const auto path = writeBytes(folder.path() / "pieces.glb", file.glb());
+    const auto counted = countGltf(path);
+    if (!counted.ok()) FAIL(counted.error().message);
+    CHECK(counted->body == apart);
+    const auto body = readBody(path);
+    CHECK(body.ok() == apart);
+    if (!apart || !body.ok()) continue;
+    CHECK(body->skeleton.joints.size() == pieces.size());
+    std::size_t vertices = 0;
+    for (const SkinnedMesh& mesh : body->meshes) vertices += mesh.mesh.positions.size();
+    CHECK(vertices == 3 * pieces.size());
+  }
+}
