@@ -125,6 +125,17 @@ std::optional<mat3> trunkOf(const Rig& rig, std::initializer_list<std::string_vi
   return mat3(side, up, glm::cross(side, up));
 }
 
+bool sidesSwapped(const Rig& rig) {
+  constexpr float kBackwards = -0.5f;  // cosine; feet that hang down are about 0
+  const auto trunk = trunkOf(rig, {"UpperArm", "UpperLeg"});
+  vec3 feet(0);
+  for (const std::string side : {"left", "right"}) {
+    const std::uint32_t foot = rig.partNamed(side + "Foot"), toes = rig.partNamed(side + "Toes");
+    if (foot != kNone && toes != kNone) feet += directionOf(rig.centres[toes] - rig.centres[foot]);
+  }
+  return trunk && glm::dot((*trunk)[2], directionOf(feet)) < kBackwards;
+}
+
 float legsOf(const Rig& rig) {
   float length = 0;
   for (const std::string side : {"left", "right"}) {

@@ -52,6 +52,10 @@ void placeIn(Rig& rig, const MotionPose& pose);
 /// @param pairs  parts without their side, as "UpperArm"
 std::optional<mat3> trunkOf(const Rig& rig, std::initializer_list<std::string_view> pairs);
 
+/// Whether feet point backwards for what is called left and right: sides as somebody sees them who stands
+/// before the person. False where nothing tells.
+bool sidesSwapped(const Rig& rig);
+
 /// Thighs and shins of both legs together [m], or in the motion's unit; 0 where one is missing.
 float legsOf(const Rig& rig);
 /// Height of all joints and tips.

@@ -203,6 +203,11 @@ void tellWhatIsOpen(const Asset& asset, const BodySkeleton& joints, const Body& 
         asset.name + ": it has " + std::to_string(people) +
         " skeletons of a person: motions move one of them, and vessels near the others do not follow it; "
         "export one person alone, with all that it wears on one skeleton");
+  if (sidesSwapped(rigOf(body.skeleton)))
+    logWarning(asset.name +
+               ": its feet point backwards for what its joints call left and right: sides seem swapped, and "
+               "motions, which go by names, turn it around; name them as the person sees them, or give a "
+               "--joint-map");
   const bool hasMesh =
       std::ranges::any_of(model.nodes, [](const Model::Node& node) { return node.mesh >= 0; });
   if (hasMesh && body.meshes.empty())

@@ -5,6 +5,7 @@
 #include "body/doll.h"
 #include "body/motion_rest.h"
 #include "body/retarget.h"
+#include "body/rig.h"
 #include "io/bvh.h"
 
 using namespace vasa;
@@ -86,6 +87,19 @@ TEST_CASE("motions in others' dialects move a body's limbs as theirs: names, zer
                       units -
                   1) < 0.01);
       }
+}
+
+TEST_CASE("sides that are swapped are told by the feet, whatever names say them and wherever a body faces") {
+  for (const char* family : {"cmu", "mixamo", "bip", "daz", "rigify", "vrm"}) {
+    CAPTURE(std::string(family));
+    Skeleton skeleton = dollBody(family).skeleton;
+    CHECK(!sidesSwapped(rigOf(skeleton)));
+    Skeleton turned = skeleton;
+    for (auto& joint : turned.joints) joint.restWorld[3] *= vec4(-1, 1, -1, 1);
+    CHECK(!sidesSwapped(rigOf(turned)));
+    for (auto& joint : skeleton.joints) joint.restWorld[3].x *= -1;
+    CHECK(sidesSwapped(rigOf(skeleton)));
+  }
 }
 
 TEST_CASE("who lies or crawls all the time stays down: the zero pose and the hips' height tell what is up") {
