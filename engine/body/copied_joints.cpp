@@ -1,9 +1,11 @@
 #include "body/copied_joints.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <unordered_map>
 
+#include "core/name_words.h"
 #include "math/aabb.h"
 
 namespace vasa {
@@ -18,6 +20,14 @@ bool restAlike(const mat4& a, const mat4& b, float size) {
   return glm::distance(a[3], b[3]) <= kSamePlace * size;
 }
 
+// Of a name without its numbers, which exporters give to doubles (Hips.001) or to every joint (Hips_07).
+std::string lettersOf(const std::string& name) {
+  std::string letters;
+  for (const std::string& word : nameWords(name))
+    if (word.find_first_not_of("0123456789") != word.npos) letters += word + ' ';
+  return letters;
+}
+
 // Of each joint the one that it is, itself where it is no copy.
 std::vector<std::uint32_t> originals(const Skeleton& skeleton) {
   const auto& joints = skeleton.joints;
@@ -27,13 +37,23 @@ std::vector<std::uint32_t> originals(const Skeleton& skeleton) {
   std::vector<std::uint32_t> same(joints.size()), root(joints.size());
   std::iota(same.begin(), same.end(), 0u);
   root = same;
-  std::unordered_map<std::string, std::uint32_t> first;
+  std::unordered_map<std::string, std::multimap<float, std::uint32_t>> named;  // by x
   for (std::uint32_t j = 0; j < joints.size(); ++j) {
-    if (const JointId parent = joints[j].parent; parent.valid()) root[j] = root[parent.value];
-    const auto [known, isNew] = first.try_emplace(joints[j].name, j);
-    const std::uint32_t other = known->second;
-    if (!isNew && root[other] != root[j] && restAlike(joints[other].restWorld, joints[j].restWorld, size))
-      same[j] = other;
+    // Below what stands at the top each branch counts as a tree: a node above several skeletons.
+    const JointId parent = joints[j].parent;
+    if (parent.valid() && joints[parent.value].parent.valid()) root[j] = root[parent.value];
+    auto& others = named[lettersOf(joints[j].name)];
+    const mat4& rest = joints[j].restWorld;
+    const float reach = kSamePlace * size;
+    const auto end = others.upper_bound(rest[3].x + reach);
+    const auto found = std::find_if(others.lower_bound(rest[3].x - reach), end, [&](const auto& other) {
+      return root[other.second] != root[j] && JointId{other.second} != parent &&
+             restAlike(joints[other.second].restWorld, rest, size);
+    });
+    if (found != end)
+      same[j] = found->second;
+    else
+      others.emplace(rest[3].x, j);
   }
   return same;
 }

@@ -15,6 +15,7 @@ void dress(Body& body, vec3 aside) {
   const auto count = std::uint32_t(body.skeleton.joints.size());
   for (std::uint32_t j = 0; j < count; ++j) {
     Skeleton::Joint copy = body.skeleton.joints[j];
+    copy.name += "_" + std::to_string(100 + j);
     if (copy.parent.valid())
       copy.parent.value += count;
     else
@@ -54,6 +55,26 @@ TEST_CASE("clothes on a copy of the skeleton move with the body's, and so does w
   const SkinnedMesh &skin = body.meshes.front(), &coat = body.meshes.back();
   for (std::size_t v = 0; v < skin.influences.size(); ++v)
     CHECK(coat.influences[v].joints == skin.influences[v].joints);
+}
+
+TEST_CASE("so do clothes where one node stands above both skeletons") {
+  Body body = person();
+  for (Skeleton::Joint& joint : body.skeleton.joints) joint.parent.value += joint.parent.valid() ? 1 : 0;
+  for (SkinnedMesh& mesh : body.meshes)
+    for (SkinInfluence& influence : mesh.influences)
+      for (std::uint16_t& joint : influence.joints) ++joint;
+  Skeleton::Joint top;
+  top.name = "Armature";
+  body.skeleton.joints.insert(body.skeleton.joints.begin(), top);
+  for (Skeleton::Joint& joint : body.skeleton.joints)
+    if (!joint.parent.valid() && joint.name != top.name) joint.parent = {0};
+  const std::size_t joints = body.skeleton.joints.size();
+  dress(body, vec3(0));
+  for (std::size_t j = joints + 1; j < body.skeleton.joints.size(); ++j)
+    if (body.skeleton.joints[j].parent.value == joints) body.skeleton.joints[j].parent = {0};
+  body.skeleton.joints[joints].parent = {0};  // the copy of the top hangs there too, and stays
+  body.skeleton.joints[joints].name = "Clothes";
+  CHECK(uniteCopiedJoints(body) == joints - 1);
 }
 
 TEST_CASE("somebody else of the same names who stands beside is no copy") {
