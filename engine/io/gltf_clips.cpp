@@ -138,9 +138,9 @@ float framesPerSecondOf(const std::vector<float>& times) {
   const auto regular = std::count_if(steps.begin(), steps.end(),
                                      [&](float step) { return std::abs(step - median) <= tolerance; });
   if (std::size_t(regular) * 10 < steps.size() * 9) return kDefault;
-  const float rate = 1 / median;
-  if (!(rate >= 10 && rate <= 240)) return kDefault;
-  return std::abs(rate - std::round(rate)) <= 0.005f * rate ? std::round(rate) : rate;
+  const float told = 1 / median;
+  const float rate = std::abs(told - std::round(told)) <= 0.005f * told ? std::round(told) : told;
+  return rate >= 10 && rate <= 240 ? rate : kDefault;
 }
 
 std::vector<Clip> readClips(const Asset& asset, const std::vector<JointId>& jointOfNode) {

@@ -4,6 +4,7 @@
 #include "core/log.h"
 #include "io/gltf.h"
 #include "io/gltf_builder.h"
+#include "io/gltf_clips.h"
 #include "io/reading.h"
 #include "support/shared_data.h"
 
@@ -410,4 +411,14 @@ TEST_CASE("rigid pieces that hang on one another as a person's limbs are a body;
     for (const SkinnedMesh& mesh : body->meshes) vertices += mesh.mesh.positions.size();
     CHECK(vertices == 3 * pieces.size());
   }
+}
+
+TEST_CASE("a clip's rate is that of its keys, up to 240 a second") {
+  const auto rateOf = [](int rate) {
+    std::vector<float> times;
+    for (int i = 0; i < 3 * rate; ++i) times.push_back(float(i) / float(rate));
+    return gltf::framesPerSecondOf(times);
+  };
+  for (const int rate : {10, 24, 25, 30, 50, 60, 100, 120, 240}) CHECK(rateOf(rate) == float(rate));
+  for (const int rate : {5, 500}) CHECK(rateOf(rate) == 30);
 }
