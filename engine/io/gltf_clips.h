@@ -6,8 +6,8 @@
 
 namespace vasa::gltf {
 
-/// The file's animations as far as they move joints. Those that move none are left out, and so are those whose
-/// keys break a rule, have no data, or last for more than a million frames; both is told.
+/// The file's animations as far as they move joints. Those that move none are left out, and so are those
+/// whose keys break a rule, have no data, or last for more than a million frames; both is told.
 /// @param jointOfNode  one a node; channels of nodes without a joint are ignored
 std::vector<Clip> readClips(const Asset& asset, const std::vector<JointId>& jointOfNode);
 
