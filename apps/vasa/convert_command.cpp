@@ -214,10 +214,11 @@ Result<void> run(const Globals& globals, const Options& options) {
     return Error{Fault::usage, fmt::format("{}: centre lines are followed as they are told; leave out {}",
                                            options.meshes.front(), ofSurfaces)};
   if (lines) settings.fit.position.least = 0;  // radii are kept as told: rounded only when asked for
-  const auto sources =
+  auto sources =
       lines ? Result(std::vector<SourceElement>())
             : readInUnit(options, [&](double metresPerUnit) { return readSources(options, metresPerUnit); });
   if (!sources) return sources.error();
+  leaveOutNamedOthers(*sources);
   RestRepair repair;
   settings.mend = [&](const Network& network) {
     repair = options.part ? separateAtRest(network) : overlapsAtRest(network);

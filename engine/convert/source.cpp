@@ -118,7 +118,8 @@ std::vector<SourceElement> describeElements(std::vector<MeshElement> elements, s
   const auto add = [&](MeshElement element) {
     const VesselKind kind = kindOf(element, fileName);
     std::string label = vesselLabel(element.name);
-    described.push_back({std::move(element), kind, std::move(label)});
+    const bool noVessel = namesNoVessel(element, fileName);
+    described.push_back({std::move(element), kind, std::move(label), false, noVessel});
   };
   for (MeshElement& element : elements) {
     if (!saysBoth(element, fileName)) {
@@ -128,6 +129,15 @@ std::vector<SourceElement> describeElements(std::vector<MeshElement> elements, s
     for (MeshElement& part : byMaterials(element)) add(std::move(part));
   }
   return described;
+}
+
+std::vector<std::string> leaveOutNoVessels(std::vector<SourceElement>& sources) {
+  std::vector<std::string> left;
+  if (std::ranges::all_of(sources, &SourceElement::noVessel)) return left;
+  for (const SourceElement& source : sources)
+    if (source.noVessel) left.push_back(source.element.name);
+  std::erase_if(sources, [](const SourceElement& source) { return source.noVessel; });
+  return left;
 }
 
 }  // namespace vasa

@@ -12,8 +12,9 @@ namespace vasa {
 struct SourceElement {
   MeshElement element;
   VesselKind kind = VesselKind::other;
-  std::string label;     ///< the vessel's name: the element's without its leading catalogue number
-  bool byLumen = false;  ///< the outside of its wall is left out
+  std::string label;      ///< the vessel's name: the element's without its leading catalogue number
+  bool byLumen = false;   ///< the outside of its wall is left out
+  bool noVessel = false;  ///< its name says an organ, a bone or a finding
 };
 
 /// The kind of vessel: by what the file says of the element, else by an ontology's number (FMA, UBERON) of a
@@ -28,6 +29,10 @@ VesselKind kindOf(const MeshElement& element, std::string_view fileName);
 VesselKind kindOfTexts(const MeshElement& element, std::string_view fileName);
 VesselKind kindOf(const MeshMaterial& material);
 
+/// Whether an element's name says something else in a body than a vessel, in English (kidney_left, rib 4,
+/// thrombus), and no text or number tells of a vessel.
+bool namesNoVessel(const MeshElement& element, std::string_view fileName);
+
 /// "FJ1654M left anterior cerebral artery" -> "left anterior cerebral artery"; other names stay as they are.
 std::string vesselLabel(std::string_view elementName);
 
@@ -38,5 +43,9 @@ bool sameFamily(VesselKind a, VesselKind b);
 /// and these say both artery and vein, is divided by them; what of it hangs together with neither is a part
 /// of no known kind.
 std::vector<SourceElement> describeElements(std::vector<MeshElement> elements, std::string_view fileName);
+
+/// Takes out what is no vessel by its name, where there is something else: of a whole body that was segmented
+/// the vessels alone. @return the names of what was taken out
+std::vector<std::string> leaveOutNoVessels(std::vector<SourceElement>& sources);
 
 }  // namespace vasa

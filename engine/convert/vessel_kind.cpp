@@ -230,4 +230,28 @@ VesselKind kindOf(const MeshElement& element, std::string_view fileName) {
   return told ? VesselKind::portalVein : kind;
 }
 
+bool namesNoVessel(const MeshElement& element, std::string_view fileName) {
+  // What segmentations of whole bodies name: organs, bones, muscles, and what is found or put in vessels.
+  static constexpr std::array<std::string_view, 72> kOther{
+      " kidney",      " liver ",     " spleen ",    " stomach ",    " pancreas ", " gallbladder ",
+      " gall ",       " bladder ",   " esophagus ", " oesophagus ", " trachea ",  " bronch",
+      " thyroid ",    " bowel ",     " duodenum ",  " colon ",      " intestine", " rectum ",
+      " prostate ",   " uterus ",    " ovar",       " testis ",     " brain ",    " cerebrum ",
+      " cerebellum ", " brainstem ", " heart ",     " atri",        " ventricle", " myocardium ",
+      " lung",        " pleura ",    " diaphragm ", " muscle",      " gluteus ",  " iliopsoas ",
+      " autochthon ", " skin ",      " fat ",       " bone",        " skull ",    " vertebra",
+      " rib ",        " ribs ",      " sternum ",   " sacrum ",     " femur ",    " tibia ",
+      " fibula ",     " humerus ",   " ulna ",      " scapula ",    " clavic",    " pelvis ",
+      " hip ",        " cartilage",  " tooth ",     " teeth ",      " disc ",     " spinal cord ",
+      " nerve",       " eye ",       " eyes ",      " tumor",       " tumour",    " cyst",
+      " lesion",      " calcif",     " thromb",     " stent ",      " catheter ", " adrenal "};
+  // "Liver vessels", "branch to the stomach".
+  static constexpr std::array<std::string_view, 10> kVessel{" vessel", " vascul", " branch", " trunk ",
+                                                            " plexus", " sinus",  " anast",  " perfor",
+                                                            " arcade", " lumen"};
+  const std::string text = spaced(element.name);
+  return hasAny(text, kOther) && !hasAny(text, kVessel) &&
+         kindOfTexts(element, fileName) == VesselKind::other;
+}
+
 }  // namespace vasa

@@ -77,8 +77,9 @@ void tellDoubtful(const std::filesystem::path& path, const ConvertReport& report
 
 Result<Network> networkOfSurfaces(const std::filesystem::path& path, float bodyHeight,
                                   const ReadingProgress& told) {
-  const auto sources = readSurfacesInLikelyUnit(path, ImportFrame::Up::y);
+  auto sources = readSurfacesInLikelyUnit(path, ImportFrame::Up::y);
   if (!sources) return sources.error();
+  leaveOutNamedOthers(*sources);
   ConvertOptions options{.bodyHeight = bodyHeight};
   if (told) {
     told("converting vessels", 0, sources->size());
@@ -105,6 +106,16 @@ Result<Network> networkOfLines(const std::filesystem::path& path, float bodyHeig
 }
 
 }  // namespace
+
+void leaveOutNamedOthers(std::vector<SourceElement>& sources) {
+  const std::size_t all = sources.size();
+  const std::vector<std::string> left = leaveOutNoVessels(sources);
+  if (!left.empty())
+    logInfo(fmt::format(
+        "left out by their names, which are those of no vessels: {} of {} elements, '{}' first; what is a vessel "
+        "needs a vessel's name",
+        left.size(), all, visible(left.front())));
+}
 
 Aabb boundsOf(const std::vector<SourceElement>& sources) {
   Aabb box;

@@ -134,6 +134,28 @@ TEST_CASE("a mesh whose materials say artery and vein is divided by them, unless
   CHECK(describeElements({element}, "scan").size() == 1);
 }
 
+TEST_CASE("organs, bones and findings are known by their names, where nothing says that they are vessels") {
+  for (const char* name : {"kidney_left", "vertebrae_L3", "rib_left_4", "Calcification.001", "Liver", "stent",
+                           "lung_upper_lobe_left", "spinal_cord"})
+    CHECK_MESSAGE(namesNoVessel(named(name), "scan"), name);
+  for (const char* name : {"Aorta", "renal artery to kidney", "liver vessels", "stomach branch", "portal",
+                           "pulmonary_vein", "hepatic", "Mesh.001"})
+    CHECK_MESSAGE(!namesNoVessel(named(name), "scan"), name);
+  CHECK(!namesNoVessel(named("stomach"), "bp3d_arteries"));
+  CHECK(!namesNoVessel(named("stomach", "vein"), "scan"));
+
+  const auto left = [](const std::vector<const char*>& names) {
+    std::vector<MeshElement> elements;
+    for (const char* name : names) elements.push_back(named(name));
+    auto sources = describeElements(std::move(elements), "scan");
+    const auto out = leaveOutNoVessels(sources);
+    CHECK(out.size() + sources.size() == names.size());
+    return out;
+  };
+  CHECK(left({"aorta", "liver", "left renal"}) == std::vector<std::string>{"liver"});
+  CHECK(left({"liver", "brain"}).empty());  // somebody's vessels of these, as the files are called
+}
+
 TEST_CASE("catalogue numbers go, names stay") {
   CHECK(vesselLabel("FJ1654M left anterior cerebral artery") == "left anterior cerebral artery");
   CHECK(vesselLabel("FMA50029  aorta") == "aorta");
