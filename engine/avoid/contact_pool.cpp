@@ -103,7 +103,7 @@ float ContactPool::clearanceFor(const Constraint& at, float radii) const {
 // another side. Those that cross are left where they are: asked to go back, they would be pressed into one
 // another. What has come ahead of a vessel's end would slip around it: it stays as far on its side as it has
 // to, to be there once it is beside the end again.
-bool ContactPool::wouldRoll(const RestSides::Turned& turned, std::span<const Bezier> shape,
+bool ContactPool::wouldRoll(const RestSides::Turned& turned, std::span<const Bezier> shape, float most,
                             Constraint& constraint) {
   const auto& [at, side, aheadOfEnd] = turned;
   const auto [i, j, s, t, f, contactNormal] = at;
@@ -119,7 +119,7 @@ bool ContactPool::wouldRoll(const RestSides::Turned& turned, std::span<const Bez
   if (aheadOfEnd) least = std::min(least, -std::max(apart - radii, 0.0f));
   constraint = {.i = i, .other = j, .s = s, .t = t, .normal = side / sure};
   constraint.limit = kReach * apart;
-  constraint.clearance = least - radii;
+  constraint.clearance = std::min(least, f + most) - radii;
   return least - f > kNegligible;
 }
 
@@ -202,12 +202,12 @@ void ContactPool::take(const Constraint& constraint, const MotionSpace::Rows& ro
 }
 
 void ContactPool::addSides(std::span<const RestSides::Turned> turned, std::span<const Bezier> shape,
-                           std::span<const vec3> z) {
+                           float most, std::span<const vec3> z) {
   const std::size_t before = constraints_.size();
   sideRows_.clear();
   for (const RestSides::Turned& own : turned) {
     Constraint constraint;
-    if (!wouldRoll(own, shape, constraint)) continue;
+    if (!wouldRoll(own, shape, most, constraint)) continue;
     giveRow(constraint, sideRows_);
     take(constraint, sideRows_, shape, z);
   }

@@ -58,8 +58,9 @@ class ContactPool {
            std::span<vec3> z);
 
   /// Turns vessels back that roll around one another, or around one another's ends.
-  /// @param turned  RestSides::findTurned
-  void addSides(std::span<const RestSides::Turned> turned, std::span<const Bezier> shape,
+  /// @param turned  RestSides::findTurned  @param most  [m] by which they are turned back in this step:
+  /// nothing is in anything's way yet, so there is time
+  void addSides(std::span<const RestSides::Turned> turned, std::span<const Bezier> shape, float most,
                 std::span<const vec3> z);
 
   /// To be called before add() in every round: distances for the radii of the given shape.
@@ -80,7 +81,7 @@ class ContactPool {
     MotionSpace::Rows rows;
   };
   float clearanceFor(const Constraint& at, float radii) const;
-  static bool wouldRoll(const RestSides::Turned& turned, std::span<const Bezier> shape,
+  static bool wouldRoll(const RestSides::Turned& turned, std::span<const Bezier> shape, float most,
                         Constraint& constraint);
   void propose(const Contact& contact, std::span<const Bezier> shape, const LastShape& last,
                Proposals& found);

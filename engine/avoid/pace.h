@@ -23,6 +23,9 @@ class Pace {
   /// none. O(points that move)
   void keep(std::span<const vec3> last, std::span<vec3> motions, std::span<const char> free);
 
+  /// [m] by which anything may be moved aside in this step, whatever is about it.
+  float slow() const { return slow_; }
+
   /// Whether a point is a vessel's first or last.
   bool isEnd(std::size_t point) const { return isEnd_[point]; }
 

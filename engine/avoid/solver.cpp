@@ -208,7 +208,7 @@ void Avoider::State::separate(const Input& in) {
   {
     StageClock clock(in.report.solveMs);
     sides.findTurned(interference.tubes(), in.posed.rotations, turned);
-    pool.addSides(turned, interference.tubes(), correction.motions);
+    pool.addSides(turned, interference.tubes(), pace.slow(), correction.motions);
   }
   for (unsigned round = 0; round < options.rounds; ++round) {
     {
