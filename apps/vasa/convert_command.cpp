@@ -218,7 +218,8 @@ Result<void> run(const Globals& globals, const Options& options) {
       lines ? Result(std::vector<SourceElement>())
             : readInUnit(options, [&](double metresPerUnit) { return readSources(options, metresPerUnit); });
   if (!sources) return sources.error();
-  leaveOutNamedOthers(*sources);
+  std::vector<std::string> leftOut;
+  if (options.kind.empty()) leftOut = leaveOutNamedOthers(*sources);  // else they are told to be vessels
   RestRepair repair;
   settings.mend = [&](const Network& network) {
     repair = options.part ? separateAtRest(network) : overlapsAtRest(network);
@@ -243,6 +244,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   output->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (globals.json) {
     Report report = convertJson(conversion->report, *output);
+    report["left_out"] = leftOut;
     addRestRepair(report["summary"], repair);
     if (patches) report["patches"] = patchesJson(*patches, conversion->network);
     return printJson(report);

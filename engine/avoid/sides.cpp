@@ -78,7 +78,9 @@ vec3 RestSides::sideOf(const Contact& rest, const Contact& now, std::span<const 
   const vec3 u = directionOf(shape[now.i], now.s), v = directionOf(shape[now.j], now.t),
              restU = directionOf(before[rest.i], rest.s), restV = directionOf(before[rest.j], rest.t);
   if (!crossOver(u, v) || !crossOver(restU, restV)) return side;
-  const float hand = glm::dot(rest.normal, glm::normalize(glm::cross(restU, restV)));
+  const float radii = before[rest.i].at(rest.s).w + before[rest.j].at(rest.t).w;
+  const float hand = glm::dot(rest.normal, glm::normalize(glm::cross(restU, restV))) *
+                     std::min(1.0f, (rest.f + radii) / (kTooClose * radii));
   const vec3 across = hand * glm::normalize(glm::cross(u, v));
   return glm::dot(side, across) < -kSureAtRest ? vec3(0) : across;
 }

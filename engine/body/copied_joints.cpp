@@ -5,6 +5,7 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "core/ids.h"
 #include "core/name_words.h"
 #include "math/aabb.h"
 
@@ -28,27 +29,30 @@ std::string lettersOf(const std::string& name) {
   return letters;
 }
 
-// Of each joint the one that it is, itself where it is no copy.
-std::vector<std::uint32_t> originals(const Skeleton& skeleton) {
+// Of each joint the one that it is, itself where it is no copy. Joints of one skin are never one: unnamed
+// ones, or Bone.001 and Bone.002, in one place.
+std::vector<std::uint32_t> originals(const Skeleton& skeleton, std::span<const std::uint32_t> skins) {
   const auto& joints = skeleton.joints;
   Aabb box;
   for (const auto& joint : joints) box.add(vec3(joint.restWorld[3]));
   const float size = joints.empty() ? 0 : glm::length(box.extent());
-  std::vector<std::uint32_t> same(joints.size()), root(joints.size());
+  std::vector<std::uint32_t> same(joints.size()), root(joints.size()), parents(joints.size());
   std::iota(same.begin(), same.end(), 0u);
   root = same;
   std::unordered_map<std::string, std::multimap<float, std::uint32_t>> named;  // by x
   for (std::uint32_t j = 0; j < joints.size(); ++j) {
     // Below what stands at the top each branch counts as a tree: a node above several skeletons.
     const JointId parent = joints[j].parent;
+    parents[j] = parent.value;
     if (parent.valid() && joints[parent.value].parent.valid()) root[j] = root[parent.value];
     auto& others = named[lettersOf(joints[j].name)];
     const mat4& rest = joints[j].restWorld;
     const float reach = kSamePlace * size;
     const auto end = others.upper_bound(rest[3].x + reach);
     const auto found = std::find_if(others.lower_bound(rest[3].x - reach), end, [&](const auto& other) {
-      return root[other.second] != root[j] && JointId{other.second} != parent &&
-             restAlike(joints[other.second].restWorld, rest, size);
+      const std::uint32_t k = other.second;
+      return skins[j] != kNone && skins[k] != kNone && skins[j] != skins[k] && root[k] != root[j] &&
+             restAlike(joints[k].restWorld, rest, size) && !hangsOn(parents, j, k);
     });
     if (found != end)
       same[j] = found->second;
@@ -74,23 +78,22 @@ void moveTracks(Clip& clip, const std::vector<std::uint32_t>& same) {
 
 }  // namespace
 
-std::size_t uniteCopiedJoints(Body& body) {
-  const std::vector<std::uint32_t> same = originals(body.skeleton);
+std::vector<JointId> uniteCopiedJoints(Body& body, std::span<const std::uint32_t> skins) {
+  const std::vector<std::uint32_t> same = originals(body.skeleton, skins);
   std::vector<bool> kept(same.size());
   for (std::uint32_t j = 0; j < same.size(); ++j) kept[j] = same[j] == j;
-  const auto copies = std::size_t(std::ranges::count(kept, false));
-  if (copies == 0) return 0;
   for (auto& joint : body.skeleton.joints)
     if (joint.parent.valid()) joint.parent = {same[joint.parent.value]};
   for (Clip& clip : body.clips) moveTracks(clip, same);
   auto [skeleton, now] = keepJoints(body.skeleton, kept);
+  for (std::uint32_t j = 0; j < same.size(); ++j) now[j] = now[same[j]];
   body.skeleton = std::move(skeleton);
   for (SkinnedMesh& mesh : body.meshes)
     for (SkinInfluence& influence : mesh.influences)
-      for (std::uint16_t& joint : influence.joints) joint = std::uint16_t(now[same[joint]].value);
+      for (std::uint16_t& joint : influence.joints) joint = std::uint16_t(now[joint].value);
   for (Clip& clip : body.clips)
     for (JointTracks& track : clip.tracks) track.joint = now[track.joint.value];
-  return copies;
+  return std::move(now);
 }
 
 }  // namespace vasa

@@ -232,26 +232,30 @@ VesselKind kindOf(const MeshElement& element, std::string_view fileName) {
 
 bool namesNoVessel(const MeshElement& element, std::string_view fileName) {
   // What segmentations of whole bodies name: organs, bones, muscles, and what is found or put in vessels.
-  static constexpr std::array<std::string_view, 72> kOther{
-      " kidney",      " liver ",     " spleen ",    " stomach ",    " pancreas ", " gallbladder ",
-      " gall ",       " bladder ",   " esophagus ", " oesophagus ", " trachea ",  " bronch",
-      " thyroid ",    " bowel ",     " duodenum ",  " colon ",      " intestine", " rectum ",
-      " prostate ",   " uterus ",    " ovar",       " testis ",     " brain ",    " cerebrum ",
-      " cerebellum ", " brainstem ", " heart ",     " atri",        " ventricle", " myocardium ",
-      " lung",        " pleura ",    " diaphragm ", " muscle",      " gluteus ",  " iliopsoas ",
-      " autochthon ", " skin ",      " fat ",       " bone",        " skull ",    " vertebra",
-      " rib ",        " ribs ",      " sternum ",   " sacrum ",     " femur ",    " tibia ",
-      " fibula ",     " humerus ",   " ulna ",      " scapula ",    " clavic",    " pelvis ",
-      " hip ",        " cartilage",  " tooth ",     " teeth ",      " disc ",     " spinal cord ",
-      " nerve",       " eye ",       " eyes ",      " tumor",       " tumour",    " cyst",
-      " lesion",      " calcif",     " thromb",     " stent ",      " catheter ", " adrenal "};
+  // Whole words where vessels are called after them: vertebral, bronchial, ovarian, cystic, inferior thyroid.
+  static constexpr std::array<std::string_view, 80> kOther{
+      " kidney ",      " kidneys ",      " liver ",         " spleen ",     " stomach ",    " pancreas ",
+      " gallbladder ", " gall ",         " bladder ",       " esophagus ",  " oesophagus ", " trachea ",
+      " bronchus ",    " bronchi ",      " thyroid gland ", " bowel ",      " duodenum ",   " colon ",
+      " intestine ",   " intestines ",   " rectum ",        " prostate ",   " uterus ",     " ovary ",
+      " ovaries ",     " testis ",       " brain ",         " cerebrum ",   " cerebellum ", " brainstem ",
+      " heart ",       " atrium ",       " ventricle ",     " myocardium ", " lung ",       " lungs ",
+      " pleura ",      " diaphragm ",    " muscle",         " gluteus ",    " iliopsoas ",  " autochthon ",
+      " skin ",        " fat ",          " bone",           " skull ",      " vertebra ",   " vertebrae ",
+      " rib ",         " ribs ",         " sternum ",       " sacrum ",     " femur ",      " tibia ",
+      " fibula ",      " humerus ",      " ulna ",          " scapula ",    " clavicle ",   " clavicula ",
+      " pelvis ",      " hip ",          " cartilage",      " tooth ",      " teeth ",      " disc ",
+      " spinal cord ", " nerve",         " eye ",           " eyes ",       " tumor",       " tumour",
+      " cyst ",        " cysts ",        " lesion",         " calcif",      " thromb",      " stent ",
+      " catheter ",    " adrenal gland "};
   // "Liver vessels", "branch to the stomach".
-  static constexpr std::array<std::string_view, 10> kVessel{" vessel", " vascul", " branch", " trunk ",
-                                                            " plexus", " sinus",  " anast",  " perfor",
-                                                            " arcade", " lumen"};
+  static constexpr std::array<std::string_view, 13> kVessel{
+      " vessel", " vasc",   " branch", " trunk ",   " plexus",      " sinus",    " anast",
+      " perfor", " arcade", " lumen",  " capillar", " circumflex ", " marginal "};
   const std::string text = spaced(element.name);
-  return hasAny(text, kOther) && !hasAny(text, kVessel) &&
-         kindOfTexts(element, fileName) == VesselKind::other;
+  // By all texts and no colour: organs have some, too.
+  const MeshElement told{element.name, element.category, element.ontologyId, {}, element.surroundings};
+  return hasAny(text, kOther) && !hasAny(text, kVessel) && kindOf(told, fileName) == VesselKind::other;
 }
 
 }  // namespace vasa

@@ -17,7 +17,8 @@ constexpr float kTurnsBack = 0.87f;        // cosine: within 30 degrees of the w
 constexpr std::size_t kMostLookedAt = 64;  // samples in a slab of that width: more are another scale's
 
 struct Edge {
-  std::uint32_t a, b;
+  std::uint32_t a, b;  // places
+  std::uint32_t line;
 };
 
 class Graph {
@@ -91,12 +92,13 @@ class Graph {
 
   void addEdges(const std::vector<std::vector<vec4>>& lines) {
     std::vector<std::pair<std::uint64_t, std::size_t>> keys;
-    for (const auto& line : lines)
-      for (std::size_t i = 1; i < line.size(); ++i) {
+    for (std::uint32_t l = 0; l < lines.size(); ++l)
+      for (std::size_t i = 1; i < lines[l].size(); ++i) {
+        const auto& line = lines[l];
         const std::uint32_t a = root(numberOf(line[i - 1])), b = root(numberOf(line[i]));
         if (a == b) continue;
         keys.push_back({std::uint64_t(std::min(a, b)) << 32 | std::max(a, b), edges_.size()});
-        edges_.push_back({a, b});
+        edges_.push_back({a, b, l});
       }
     // Of doubles the first told stays, in the order of the file.
     std::ranges::sort(keys);
@@ -113,8 +115,9 @@ class Graph {
     return edges_[edge].a == node ? edges_[edge].b : edges_[edge].a;
   }
 
-  // Of the edges that meet in a place, the two that are one vessel's. None goes back the way it came: two
-  // lines that leave one inlet side by side are two traces of one vessel.
+  // Of the edges that meet in a place, the two that are one vessel's. Two lines that begin in one inlet, or
+  // end in one outlet, and go the same way are two traces of one vessel, not one that goes back the way it
+  // came.
   void pairAtForks() {
     next_.assign(2 * edges_.size(), kNone);
     std::vector<std::pair<std::uint32_t, std::uint32_t>> at;  // place, edge
@@ -135,7 +138,8 @@ class Graph {
         for (std::size_t k = i + 1; k < own.size(); ++k) {
           const vec4 &p = points_[other(own[i], node)], &q = points_[other(own[k], node)];
           const vec3 a = glm::normalize(vec3(p - points_[node])), b = glm::normalize(vec3(q - points_[node]));
-          if (glm::dot(a, b) > kTurnsBack) continue;
+          const Edge &e = edges_[own[i]], &f = edges_[own[k]];
+          if (e.line != f.line && (e.a == node) == (f.a == node) && glm::dot(a, b) > kTurnsBack) continue;
           const float fit = -glm::dot(a, b) + 0.5f * std::min(p.w, q.w) / std::max(p.w, q.w);
           if (fit > best) best = fit, pair = {own[i], own[k]};
         }

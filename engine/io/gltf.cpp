@@ -94,7 +94,9 @@ Result<GltfSummary> checkGltf(const std::filesystem::path& path) {
   auto bytes = bytesOf(path);
   if (!bytes) return bytes.error();
   return parse<GltfSummary>(std::move(*bytes), path, [](const gltf::Asset& asset) {
-    for (const auto& animation : asset.model.animations) gltf::checkAnimationData(asset, animation);
+    gltf::AnimationChecks checks(asset);
+    for (const auto& animation : asset.model.animations)
+      for (const auto& channel : animation.channels) checks.channel(animation, channel);
     return summaryOf(asset);
   });
 }

@@ -153,11 +153,21 @@ void leaveOutStrays(std::vector<Clip>& clips, const Skeleton& skeleton, const st
   });
 }
 
+// Of each joint the first skin that it is one of.
+std::vector<std::uint32_t> firstSkins(std::span<const BodySkeleton::Skin> skins, std::size_t joints) {
+  std::vector<std::uint32_t> first(joints, kNone);
+  for (auto s = std::uint32_t(skins.size()); s-- > 0;)
+    for (const JointId joint : skins[s].joints) first[joint.value] = s;
+  return first;
+}
+
 // A VRM's table says of some that they are a person's parts, whatever they move.
-void tellIdleJoints(const Asset& asset, const BodySkeleton& joints, Body& body) {
+void tellIdleJoints(const Asset& asset, const BodySkeleton& joints, const std::vector<JointId>& now,
+                    Body& body) {
   std::vector<bool> keep(body.skeleton.joints.size(), false);
   for (const auto& [node, part] : asset.model.humanoid)
-    if (const JointId joint = joints.jointOfNode[std::size_t(node)]; joint.valid()) keep[joint.value] = true;
+    if (const JointId joint = joints.jointOfNode[std::size_t(node)]; joint.valid())
+      keep[now[joint.value].value] = true;
   const std::vector<std::string> idle = leaveOutIdleJoints(body, keep);
   if (!idle.empty())
     logInfo(asset.name + ": " + std::to_string(idle.size()) +
@@ -310,10 +320,12 @@ Body bodyOf(const Asset& asset) {
     if (!std::isfinite(glm::dot(joint.restWorld[3], vec4(1)) + glm::determinant(mat3(joint.restWorld))))
       breaks("/nodes", "the transform of joint \"" + joint.name + "\" leaves the range of numbers",
              kExportAgain);
-  tellIdleJoints(asset, joints, body);
-  if (const std::size_t copies = uniteCopiedJoints(body); copies > 0)
+  const std::size_t told = body.skeleton.joints.size();
+  const std::vector<JointId> now = uniteCopiedJoints(body, firstSkins(joints.skins, told));
+  if (const std::size_t copies = told - body.skeleton.joints.size(); copies > 0)
     logInfo(asset.name + ": " + std::to_string(copies) +
             " joints of further skeletons repeat others by name and place, and are one with them");
+  tellIdleJoints(asset, joints, now, body);
   tellNamesApart(body.skeleton);
   tellWhatIsOpen(asset, joints, body);
   if (const auto left = leaveOutCoarserLevels(body); !left.empty())

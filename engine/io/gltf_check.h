@@ -1,6 +1,11 @@
 #pragma once
+#include <map>
+#include <optional>
+#include <utility>
+
 #include "io/gltf_asset.h"
 #include "io/gltf_json.h"
+#include "io/gltf_rule.h"
 
 // Our own complete check of a glTF 2.0 document. Each function throws BrokenRule at the first rule broken.
 namespace vasa::gltf {
@@ -14,8 +19,19 @@ void checkAmounts(const JsonView& root, std::size_t bytes);
 /// Everything that needs the buffers' bytes, but for the keys of animations.
 void checkData(const Asset& asset);
 
-/// The keys of one animation, for which no body need be refused.
-void checkAnimationData(const Asset& asset, const Model::Animation& animation);
+/// The keys of single animations, for which no body need be refused. What was found of an accessor is
+/// remembered: many samplers may share one.
+class AnimationChecks {
+ public:
+  /// @param asset  must outlive this
+  explicit AnimationChecks(const Asset& asset) : asset_(&asset) {}
+  void channel(const Model::Animation& animation, const Model::Channel& channel);
+
+ private:
+  const Asset* asset_;
+  std::map<int, std::optional<BrokenRule>> times_;
+  std::map<std::pair<int, bool>, std::optional<BrokenRule>> rotations_;
+};
 
 /// Whether an accessor's buffer view has a stride of its own. Only vertex attributes may: other readers take
 /// what else has one as packed, and see other numbers than we.

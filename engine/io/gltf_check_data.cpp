@@ -251,13 +251,24 @@ void checkData(const Asset& asset) {
   checkInverseBinds(asset);
 }
 
-void checkAnimationData(const Asset& asset, const Model::Animation& animation) {
-  for (const auto& sampler : animation.samplers) checkTimes(asset, sampler.input);
-  for (const auto& channel : animation.channels) {
-    if (channel.path != Model::Path::rotation) continue;
-    const auto& sampler = animation.samplers[std::size_t(channel.sampler)];
-    checkQuaternions(asset, sampler.output, sampler.interpolation == Interpolation::cubic);
-  }
+void AnimationChecks::channel(const Model::Animation& animation, const Model::Channel& channel) {
+  const auto once = [](auto& known, const auto& key, const auto& check) {
+    const auto [at, isNew] = known.try_emplace(key);
+    if (isNew) {
+      try {
+        check();
+      } catch (const BrokenRule& rule) {
+        at->second = rule;
+      }
+    }
+    if (at->second) throw BrokenRule(*at->second);
+  };
+  const auto& sampler = animation.samplers[std::size_t(channel.sampler)];
+  once(times_, sampler.input, [&] { checkTimes(*asset_, sampler.input); });
+  if (channel.path != Model::Path::rotation) return;
+  const bool cubic = sampler.interpolation == Interpolation::cubic;
+  once(rotations_, std::pair(sampler.output, cubic),
+       [&] { checkQuaternions(*asset_, sampler.output, cubic); });
 }
 
 }  // namespace vasa::gltf

@@ -76,13 +76,14 @@ void checkLength(const Clip& clip) {
            "check the key times, which are in seconds");
 }
 
-Clip readClip(const Asset& asset, const Model::Animation& animation,
-              const std::vector<JointId>& jointOfNode) {
+Clip readClip(const Asset& asset, const Model::Animation& animation, const std::vector<JointId>& jointOfNode,
+              AnimationChecks& checks) {
   std::map<std::uint32_t, JointTracks> byJoint;
   for (const auto& channel : animation.channels) {
     if (channel.node < 0) continue;
     const JointId joint = jointOfNode[std::size_t(channel.node)];
     if (!joint.valid()) continue;
+    checks.channel(animation, channel);
     const auto& sampler = animation.samplers[std::size_t(channel.sampler)];
     JointTracks& tracks = byJoint[joint.value];
     tracks.joint = joint;
@@ -148,20 +149,20 @@ std::vector<Clip> readClips(const Asset& asset, const std::vector<JointId>& join
   std::vector<Clip> clips;
   ClipNames names;
   std::vector<std::string> moveNone;
+  AnimationChecks checks(asset);
   std::size_t broken = 0;
   std::string why;
   for (std::size_t i = 0; i < asset.model.animations.size(); ++i) {
     const Model::Animation& animation = asset.model.animations[i];
+    const std::string name = animation.name.empty() ? "animation " + std::to_string(i) : animation.name;
     Clip clip;
     try {
-      checkAnimationData(asset, animation);
-      clip = readClip(asset, animation, jointOfNode);
+      clip = readClip(asset, animation, jointOfNode, checks);
     } catch (const BrokenRule& rule) {
-      if (broken++ == 0)
-        why = "\"" + animation.name + "\": " + rule.place + ": " + rule.rule + "; " + rule.remedy;
+      if (broken++ == 0) why = "\"" + name + "\": " + rule.place + ": " + rule.rule + "; " + rule.remedy;
       continue;
     }
-    if (clip.name.empty()) clip.name = "animation " + std::to_string(i);
+    clip.name = name;
     if (!(clip.end >= clip.start)) {
       moveNone.push_back(clip.name);
       continue;

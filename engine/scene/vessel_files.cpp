@@ -107,14 +107,15 @@ Result<Network> networkOfLines(const std::filesystem::path& path, float bodyHeig
 
 }  // namespace
 
-void leaveOutNamedOthers(std::vector<SourceElement>& sources) {
+std::vector<std::string> leaveOutNamedOthers(std::vector<SourceElement>& sources) {
   const std::size_t all = sources.size();
-  const std::vector<std::string> left = leaveOutNoVessels(sources);
+  std::vector<std::string> left = leaveOutNoVessels(sources);
   if (!left.empty())
     logInfo(fmt::format(
         "left out by their names, which are those of no vessels: {} of {} elements, '{}' first; what is a vessel "
         "needs a vessel's name",
         left.size(), all, visible(left.front())));
+  return left;
 }
 
 Aabb boundsOf(const std::vector<SourceElement>& sources) {

@@ -40,8 +40,8 @@ Result<std::vector<SourceElement>> readSurfaces(const std::filesystem::path& pat
 /// The same in the likely unit (likelyUnit), which is said where it is not metres. @param up  of all but glTF
 Result<std::vector<SourceElement>> readSurfacesInLikelyUnit(const std::filesystem::path& path,
                                                             ImportFrame::Up up);
-/// Takes out organs and the like that have their names (convert/source.h), and says so.
-void leaveOutNamedOthers(std::vector<SourceElement>& sources);
+/// Takes out organs and the like that have their names (convert/source.h), and says so. @return their names
+std::vector<std::string> leaveOutNamedOthers(std::vector<SourceElement>& sources);
 /// All triangles of some surfaces.
 TriangleMesh meshOf(const std::vector<SourceElement>& sources);
 Result<Centrelines> readCentrelines(const std::filesystem::path& path, const VesselImport& import = {});

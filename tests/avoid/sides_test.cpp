@@ -79,6 +79,14 @@ TEST_CASE("vessels that cross are known by it however far they have slid along o
   }
 }
 
+TEST_CASE("vessels that cross through one another's centre lines at rest are on no side of one another") {
+  for (const float height : {0.0f, 0.0003f}) {
+    CAPTURE(height);
+    const Network network = crossing(1.2f, height);
+    for (const float moved : {-0.002f, 0.002f}) CHECK(changedAfter(network, vec3(0, moved, 0)) == 0);
+  }
+}
+
 TEST_CASE("vessels are on no side of one another where they are joined") {
   // A branch beside its host, which turns about it as far as to the other side.
   NetworkBuilder builder;

@@ -30,6 +30,15 @@ void dress(Body& body, vec3 aside) {
   body.meshes.push_back(coat);
 }
 
+// How many become one with others, where the first so many are the body's and the others the clothes'.
+std::size_t united(Body& body, std::size_t ofBody) {
+  const std::size_t before = body.skeleton.joints.size();
+  std::vector<std::uint32_t> skins(before, 1);
+  std::fill_n(skins.begin(), ofBody, 0u);
+  CHECK(uniteCopiedJoints(body, skins).size() == before);
+  return before - body.skeleton.joints.size();
+}
+
 }  // namespace
 
 TEST_CASE("clothes on a copy of the skeleton move with the body's, and so does what the copy alone has") {
@@ -48,7 +57,7 @@ TEST_CASE("clothes on a copy of the skeleton move with the body's, and so does w
   Clip clip;
   clip.tracks = {bend};
   body.clips = {clip};
-  CHECK(uniteCopiedJoints(body) == joints);
+  CHECK(united(body, joints) == joints);
   REQUIRE(body.skeleton.joints.size() == joints + 1);
   CHECK(body.skeleton.joints.back().parent == hips);
   CHECK(body.clips[0].tracks[0].joint == elbow);
@@ -74,13 +83,20 @@ TEST_CASE("so do clothes where one node stands above both skeletons") {
     if (body.skeleton.joints[j].parent.value == joints) body.skeleton.joints[j].parent = {0};
   body.skeleton.joints[joints].parent = {0};  // the copy of the top hangs there too, and stays
   body.skeleton.joints[joints].name = "Clothes";
-  CHECK(uniteCopiedJoints(body) == joints - 1);
+  CHECK(united(body, joints) == joints - 1);
 }
 
 TEST_CASE("somebody else of the same names who stands beside is no copy") {
   Body body = person();
   const std::size_t joints = body.skeleton.joints.size();
   dress(body, {1, 0, 0});
-  CHECK(uniteCopiedJoints(body) == 0);
+  CHECK(united(body, joints) == 0);
   CHECK(body.skeleton.joints.size() == 2 * joints);
+}
+
+TEST_CASE("joints of one skin, without names or numbered alone, stay apart in one place") {
+  Body body = person();
+  for (Skeleton::Joint& joint : body.skeleton.joints)
+    joint.name = "Bone", joint.restWorld = body.skeleton.joints[0].restWorld;
+  CHECK(united(body, body.skeleton.joints.size()) == 0);
 }

@@ -138,11 +138,17 @@ TEST_CASE("organs, bones and findings are known by their names, where nothing sa
   for (const char* name : {"kidney_left", "vertebrae_L3", "rib_left_4", "Calcification.001", "Liver", "stent",
                            "lung_upper_lobe_left", "spinal_cord"})
     CHECK_MESSAGE(namesNoVessel(named(name), "scan"), name);
-  for (const char* name : {"Aorta", "renal artery to kidney", "liver vessels", "stomach branch", "portal",
-                           "pulmonary_vein", "hepatic", "Mesh.001"})
+  for (const char* name :
+       {"Aorta", "renal artery to kidney", "liver vessels", "stomach branch", "portal", "pulmonary_vein",
+        "hepatic", "Mesh.001", "vertebral_left", "superior thyroid", "R_ovarian", "bronchial", "cystic",
+        "left atrial", "hip_circumflex", "lung_vasc", "kidney capillaries"})
     CHECK_MESSAGE(!namesNoVessel(named(name), "scan"), name);
   CHECK(!namesNoVessel(named("stomach"), "bp3d_arteries"));
   CHECK(!namesNoVessel(named("stomach", "vein"), "scan"));
+  MeshElement lung = named("lung");
+  lung.surroundings = {"Arteries"};
+  lung.materials = {{"Arteries", {}}};
+  CHECK(!namesNoVessel(lung, "scan"));
 
   const auto left = [](const std::vector<const char*>& names) {
     std::vector<MeshElement> elements;

@@ -22,5 +22,18 @@ TEST_CASE("where nothing tells which edge goes on all end, and none is lost") {
   CHECK(lines.size() == 3);
 }
 
+TEST_CASE("a line goes on through a bend as sharp as a hairpin, in one line as from one to the next") {
+  const std::vector<vec4> there{{0, 0, 0, 1}, {5, 0, 0, 1}, {10, 0, 0, 1}},
+      back{{10, 0, 0, 1}, {9, 0.5f, 0, 1}, {5, 1, 0, 1}};
+  std::vector<vec4> whole = there;
+  whole.insert(whole.end(), back.begin() + 1, back.end());
+  using Lines = std::vector<std::vector<vec4>>;
+  for (const Lines& lines : {Lines{whole}, Lines{there, back}}) {
+    const auto chained = chainLines(lines);
+    REQUIRE(chained.size() == 1);
+    CHECK(chained[0].size() == whole.size());
+  }
+}
+
 }  // namespace
 }  // namespace vasa

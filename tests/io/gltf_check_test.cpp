@@ -313,6 +313,26 @@ TEST_CASE("an animation whose keys break a rule is left out; body and other clip
   }
 }
 
+TEST_CASE("keys of what moves no joint are not looked at") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "a.glb";
+  GltfBuilder file = bodyFile();
+  const int node = file.add("nodes", {{"name", "camera"}});
+  const int times = file.floats({0, 1}, "SCALAR"), places = file.floats({0, 0, 0, 0, 0, 1}, "VEC3"),
+            unsorted = file.floats({1, 0}, "SCALAR");
+  const auto moves = [](int sampler, int target) {
+    return json{{"sampler", sampler}, {"target", {{"node", target}, {"path", "translation"}}}};
+  };
+  file.add("animations",
+           {{"name", "rise"},
+            {"samplers", {{{"input", times}, {"output", places}}, {{"input", unsorted}, {"output", places}}}},
+            {"channels", {moves(0, 0), moves(1, node)}}});
+  const auto body = readBody(writeBytes(path, file.glb()));
+  REQUIRE(body.ok());
+  CHECK(std::ranges::any_of(body->clips, [](const Clip& clip) { return clip.name == "rise"; }));
+  CHECK_FALSE(checkGltf(path).ok());
+}
+
 TEST_CASE("broken materials and pictures") {
   const auto material = [](json value) { return set("/materials", json::array({std::move(value)})); };
   checkAll({
