@@ -15,6 +15,9 @@ namespace {
 // Of the skeleton's size, and of an axis' length: rounding, not where somebody else stands.
 constexpr float kSamePlace = 1e-3f;
 
+// Joints of a name, from which on it is no name: a hundred called Bone.001 and so on, or not at all.
+constexpr std::uint32_t kMostAlike = 64;
+
 bool restAlike(const mat4& a, const mat4& b, float size) {
   for (int axis = 0; axis < 3; ++axis)
     if (!(glm::distance(a[axis], b[axis]) <= kSamePlace * glm::length(a[axis]))) return false;
@@ -39,13 +42,17 @@ std::vector<std::uint32_t> originals(const Skeleton& skeleton, std::span<const s
   std::vector<std::uint32_t> same(joints.size()), root(joints.size()), parents(joints.size());
   std::iota(same.begin(), same.end(), 0u);
   root = same;
+  std::unordered_map<std::string, std::uint32_t> counts;
+  for (const auto& joint : joints) ++counts[lettersOf(joint.name)];
   std::unordered_map<std::string, std::multimap<float, std::uint32_t>> named;  // by x
   for (std::uint32_t j = 0; j < joints.size(); ++j) {
     // Below what stands at the top each branch counts as a tree: a node above several skeletons.
     const JointId parent = joints[j].parent;
     parents[j] = parent.value;
     if (parent.valid() && joints[parent.value].parent.valid()) root[j] = root[parent.value];
-    auto& others = named[lettersOf(joints[j].name)];
+    const std::string letters = lettersOf(joints[j].name);
+    if (counts[letters] > kMostAlike) continue;
+    auto& others = named[letters];
     const mat4& rest = joints[j].restWorld;
     const float reach = kSamePlace * size;
     const auto end = others.upper_bound(rest[3].x + reach);
