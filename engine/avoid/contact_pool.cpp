@@ -16,18 +16,18 @@
 namespace vasa {
 namespace {
 
-constexpr float kCompliance = 1e-3f;           // α as a share of a·g
-constexpr float kOverRelaxation = 1.3f;        // ω: 1.2 to 1.6 settle more in as many sweeps than 1 does
-constexpr float kClearanceShare = 0.02f;       // of the sum of the radii
-constexpr float kLeastClearance = 1e-5f;       // [m]
-constexpr float kBoneClearance = 1e-4f;        // [m]
-constexpr float kSameParameter = 0.04f;        // constraints of one pair closer than this in s and t are one
-constexpr float kSameDirection = 0.98f;        // ... if their normals are about the same too
-constexpr float kSameWay = 0.7f;               // ... of a bone, whose planes turn
-constexpr float kUnsure = 0.5f, kSure = 0.8f;  // of a side at rest (RestSides::carried)
-constexpr float kSameSide = 0.5f;              // cosine between a gap and what the last one has become
-constexpr float kNegligible = 2e-6f;           // [m] of violation, and of a step that moves a place
-constexpr float kLeastDiagonal = 1e-4f;        // below it nothing that may move can mend the place
+constexpr float kCompliance = 1e-3f;      // α as a share of a·g
+constexpr float kOverRelaxation = 1.3f;   // ω: 1.2 to 1.6 settle more in as many sweeps than 1 does
+constexpr float kClearanceShare = 0.02f;  // of the sum of the radii
+constexpr float kLeastClearance = 1e-5f;  // [m]
+constexpr float kBoneClearance = 1e-4f;   // [m]
+constexpr float kSameParameter = 0.04f;   // constraints of one pair closer than this in s and t are one
+constexpr float kSameDirection = 0.98f;   // ... if their normals are about the same too
+constexpr float kSameWay = 0.7f;          // ... of a bone, whose planes turn
+constexpr float kSure = 0.8f;             // of a side at rest, from which on it counts in full
+constexpr float kSameSide = 0.5f;         // cosine between a gap and what the last one has become
+constexpr float kNegligible = 2e-6f;      // [m] of violation, and of a step that moves a place
+constexpr float kLeastDiagonal = 1e-4f;   // below it nothing that may move can mend the place
 // How far a multiplier may push on its own: times what is lacking and the radii.
 constexpr float kReach = 10;
 
@@ -111,10 +111,10 @@ bool ContactPool::wouldRoll(const RestSides::Turned& turned, std::span<const Bez
       crossOver(unitOr(vec3(shape[i].derivative(s)), vec3(0)), unitOr(vec3(shape[j].derivative(t)), vec3(0))))
     return false;
   const float sure = glm::length(side);
-  if (sure <= kUnsure) return false;
   const vec4 a = shape[i].at(s), b = shape[j].at(t);
   const float apart = glm::distance(vec3(a), vec3(b)), radii = a.w + b.w;
-  const float share = std::clamp((sure - kUnsure) / (kSure - kUnsure), 0.0f, 1.0f);
+  const float share =
+      std::clamp((sure - RestSides::kSureAtRest) / (kSure - RestSides::kSureAtRest), 0.0f, 1.0f);
   float least = 0.9f * RestSides::kChanged * (1 - share) * apart;
   if (aheadOfEnd) least = std::min(least, -std::max(apart - radii, 0.0f));
   constraint = {.i = i, .other = j, .s = s, .t = t, .normal = side / sure};

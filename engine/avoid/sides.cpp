@@ -14,12 +14,11 @@ namespace {
 constexpr float kSureTo = 4, kNothingFrom = 8;  // sums of radii at rest between which the side fades
 // Sums of radii apart, below which the side at rest is the less sure.
 constexpr float kTooClose = 0.25f;
-constexpr float kCrossing = 0.7f;    // |u - v| from which two tubes cross (40 degrees)
-constexpr float kSureAtRest = 0.5f;  // how sure the rest pose must be for a change of sides
-constexpr float kAhead = 0.34f;      // cosine of the way to what lies ahead of an end (70 degrees)
-constexpr int kMostSteps = 4;        // from tube to tube
-constexpr float kInto = 0.01f;       // of a tube, where the search goes on in the next
-constexpr float kNearer = 1e-6f;     // [m]
+constexpr float kCrossing = 0.7f;  // |u - v| from which two tubes cross (40 degrees)
+constexpr float kAhead = 0.34f;    // cosine of the way to what lies ahead of an end (70 degrees)
+constexpr int kMostSteps = 4;      // from tube to tube
+constexpr float kInto = 0.01f;     // of a tube, where the search goes on in the next
+constexpr float kNearer = 1e-6f;   // [m]
 constexpr std::size_t kGrain = 1024;
 
 float fadeOut(float x, float from, float to) {
@@ -151,15 +150,15 @@ void RestSides::find(std::span<const Bezier> shape, std::span<const quat> rotati
       };
       const bool mayGoAround = which == Which::turned && (hasFreeEnd(rest.i) || hasFreeEnd(rest.j));
       if (!mayGoAround && glm::dot(gapAt(rest), sideOf(rest, rest, shape, rotations)) > 0) continue;
-      const std::optional<Contact> now = nearestAlong(rest, shape);
+      std::optional<Contact> now = nearestAlong(rest, shape);
       if (!now) continue;
       const vec3 side = sideOf(rest, *now, shape, rotations), gap = gapAt(*now);
       const float sure = glm::length(side), depth = glm::dot(gap, side) / sure;
       if (!(sure >= kSureAtRest) || depth > -kNearer) continue;
       const bool ahead = aheadOfEnd(*now, gap, shape);
       if (which == Which::changed && (ahead || depth > kChanged * glm::length(gap))) continue;
+      now->f = depth;
       found_[task].push_back({*now, side, ahead});
-      found_[task].back().at.f = depth;
     }
   });
   turned.clear();

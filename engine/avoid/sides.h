@@ -57,6 +57,7 @@ class RestSides {
   /// Cosine of the angle between the side at rest and that now, from which on it counts as changed: 120
   /// degrees.
   static constexpr float kChanged = -0.5f;
+  static constexpr float kSureAtRest = 0.5f;  ///< how sure the side at rest must be for any of these
 
  private:
   enum class Which { turned, changed };

@@ -42,17 +42,17 @@ std::vector<std::uint32_t> originals(const Skeleton& skeleton, std::span<const s
   std::vector<std::uint32_t> same(joints.size()), root(joints.size()), parents(joints.size());
   std::iota(same.begin(), same.end(), 0u);
   root = same;
+  std::vector<std::string> letters;
   std::unordered_map<std::string, std::uint32_t> counts;
-  for (const auto& joint : joints) ++counts[lettersOf(joint.name)];
+  for (const auto& joint : joints) ++counts[letters.emplace_back(lettersOf(joint.name))];
   std::unordered_map<std::string, std::multimap<float, std::uint32_t>> named;  // by x
   for (std::uint32_t j = 0; j < joints.size(); ++j) {
     // Below what stands at the top each branch counts as a tree: a node above several skeletons.
     const JointId parent = joints[j].parent;
     parents[j] = parent.value;
     if (parent.valid() && joints[parent.value].parent.valid()) root[j] = root[parent.value];
-    const std::string letters = lettersOf(joints[j].name);
-    if (counts[letters] > kMostAlike) continue;
-    auto& others = named[letters];
+    if (counts[letters[j]] > kMostAlike) continue;
+    auto& others = named[letters[j]];
     const mat4& rest = joints[j].restWorld;
     const float reach = kSamePlace * size;
     const auto end = others.upper_bound(rest[3].x + reach);
