@@ -43,6 +43,14 @@ void CorrectionFlow::fade(float seconds, Correction& correction) const {
   }
 }
 
+// A lumen that is bounded in one of both only is bounded the less the farther that one is.
+void CorrectionFlow::mix(const Correction& other, float share, Correction& correction) {
+  for (std::size_t v = 0; v < correction.motions.size(); ++v)
+    correction.motions[v] = glm::mix(other.motions[v], correction.motions[v], share);
+  for (std::size_t p = 0; p < correction.widest.size(); ++p)
+    correction.widest[p] = 1 / glm::mix(1 / other.widest[p], 1 / correction.widest[p], share);
+}
+
 void CorrectionFlow::carry(std::span<const quat> from, std::span<const quat> to,
                            std::span<vec3> motions) const {
   for (std::size_t v = 0; v < motions.size(); ++v)

@@ -29,6 +29,10 @@ class CorrectionFlow {
   /// @param from, to  how each point's surroundings are turned, before and now
   void carry(std::span<const quat> from, std::span<const quat> to, std::span<vec3> motions) const;
 
+  /// What lies between two corrections of one pose.
+  /// @param share  0: other, 1: correction
+  static void mix(const Correction& other, float share, Correction& correction);
+
  private:
   const Network* network_;
   std::vector<std::uint32_t> pointOf_;  // that a variable goes with; kNone where none may move

@@ -68,13 +68,10 @@ void FrameMaker::make(const Clip* clip, float time) {
   const float place =
       std::clamp((time - clip->start) * clip->framesPerSecond, 0.0f, float(clip->frameCount() - 1));
   const auto frame = std::uint32_t(place + kOnFrame);
-  goTo(*clip, frame);
   const float beyond = place - float(frame);
-  if (beyond > kOnFrame) {
-    at_.reset();
-    samplePose(scene_->body.skeleton, *clip, time, target_);
-    walk(target_, clip->timeOfFrame(frame), time, beyond / clip->framesPerSecond);
-  }
+  const bool isBetween = beyond > kOnFrame;
+  goTo(*clip, frame + isBetween);
+  if (isBetween) goBetween(*clip, frame, beyond, time);
   finish();
 }
 
@@ -216,6 +213,20 @@ void FrameMaker::goTo(const Clip& clip, std::uint32_t frame) {
     track_->add(avoider_->correction());
     at_ = next;
   }
+}
+
+// From the later one of two frames back to a time between them: what is moved aside goes over from the one to
+// the other, so that what one frame brings does not come all at once.
+void FrameMaker::goBetween(const Clip& clip, std::uint32_t earlier, float share, float time) {
+  at_.reset();
+  samplePose(scene_->body.skeleton, clip, clip.timeOfFrame(earlier), target_);
+  deform(target_, clip.timeOfFrame(earlier));
+  track_->at(earlier, earlier_.correction);
+  earlier_.rotations = rotations_;
+  earlier_.share = share;
+  samplePose(scene_->body.skeleton, clip, time, target_);
+  deform(target_, time);
+  step({(1 - share) / clip.framesPerSecond, true, true, &earlier_});
 }
 
 void FrameMaker::put(std::span<const vec4> points) {

@@ -43,9 +43,10 @@ struct FrameOptions {
 /// A motion is solved, not a frame. A frame is a function of scene, clip and time alone: from the rest pose
 /// the body goes along a fixed way (body/pose_path.h) to the clip's first pose, and then through the clip
 /// frame by frame, in steps whose length follows from the motion and what it brings into one another's way;
-/// each starts from the correction of the one before. A time between two frames is one step on from the
-/// earlier one. A pose without a clip is reached from the rest pose in the same way. Frames that were made
-/// once are kept (scene/motion_track.h, all or the latest), so that only what is ahead has to be solved.
+/// each starts from the correction of the one before. A time between two frames starts from what lies between
+/// both corrections, so that it goes over from one to the other. A pose without a clip is reached from the
+/// rest pose in the same way. Frames that were made once are kept (scene/motion_track.h, all or the latest),
+/// so that only what is ahead has to be solved.
 class FrameMaker {
  public:
   explicit FrameMaker(const Scene& scene, FrameOptions options = {});
@@ -87,6 +88,7 @@ class FrameMaker {
   void start(const Correction& correction);
   void goTo(const Clip& clip, std::uint32_t frame);
   void resume(const Clip& clip, std::uint32_t frame);
+  void goBetween(const Clip& clip, std::uint32_t earlier, float share, float time);
   void begin(const Clip& clip);
   void finish();
 
@@ -102,6 +104,7 @@ class FrameMaker {
   std::shared_ptr<MotionTrack> track_;
   std::optional<std::uint32_t> at_;  // frame of the track where the avoider stands
   Correction known_;                 // of the track
+  EarlierCorrection earlier_;        // of the frame before a time between two
   std::vector<vec3> restReferences_, references_;
   std::vector<quat> rotations_;
   Pose restPose_;

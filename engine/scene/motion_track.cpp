@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -117,11 +116,12 @@ void MotionTrack::restart(const Clip& clip, const Correction& first) {
 }
 
 void MotionTrack::add(const Correction& correction) {
-  assert(keeps_ == Keeps::all || frames_.size() == 1);
-  if (keeps_ == Keeps::latest)
+  if (keeps_ == Keeps::latest && frames_.size() == 2) {
     ++first_;
-  else
+    std::swap(frames_[0], frames_[1]);
+  } else {
     frames_.emplace_back();
+  }
   take(correction, frames_.back());
 }
 

@@ -21,7 +21,7 @@ constexpr int kMotionEdition = 13;
 /// each of a frame's moved points and nodes, 48 a frame.
 class MotionTrack {
  public:
-  /// Of what was solved. For a film that only goes on the latest frame will do, and a track does not grow.
+  /// Of what was solved. For a film that only goes on the latest two will do, and a track does not grow.
   enum class Keeps { all, latest };
   struct Moved {
     std::uint32_t variable;
