@@ -81,7 +81,7 @@ struct Avoider::State {
     std::span<vec4> points;
     AvoidReport& report;
     float seconds = 0;
-    const EarlierCorrection* earlier = nullptr;
+    const OtherCorrection* other = nullptr;
   };
   void pose(const PosedVessels& posed);
   Correction noCorrection() const;
@@ -164,12 +164,12 @@ Correction Avoider::State::noCorrection() const {
 // What the last step's correction has become.
 void Avoider::State::comeAlong(const Input& in) {
   correction = accepted;
-  if (!in.earlier) flow.fade(in.seconds, correction);
+  if (!in.other) flow.fade(in.seconds, correction);
   flow.carry(lastRotations, in.posed.rotations, correction.motions);
-  if (!in.earlier) return;
-  Correction earlier = in.earlier->correction;
-  flow.carry(in.earlier->rotations, in.posed.rotations, earlier.motions);
-  CorrectionFlow::mix(earlier, in.earlier->share, correction);
+  if (!in.other) return;
+  Correction other = in.other->correction;
+  flow.carry(in.other->rotations, in.posed.rotations, other.motions);
+  CorrectionFlow::mix(other, in.other->share, correction);
 }
 
 // The shape that belongs to a correction.
@@ -420,7 +420,7 @@ std::optional<AvoidReport> Avoider::step(const PosedVessels& posed, const Volume
                                          const Stride& stride, std::span<vec4> points) {
   State& state = *state_;
   AvoidReport report;
-  const State::Input in{posed, volume, state.shape, report, stride.seconds, stride.earlier};
+  const State::Input in{posed, volume, state.shape, report, stride.seconds, stride.other};
   state.pool.clear();
   state.pose(posed);
   state.pace.begin(state.lastPosed, posed.points, stride.seconds);

@@ -61,10 +61,10 @@ struct AvoidReport {
 };
 
 /// A correction that was found for another pose.
-struct EarlierCorrection {
+struct OtherCorrection {
   Correction correction;
   std::vector<quat> rotations;  ///< as PosedVessels', in its pose
-  float share = 0;              ///< of the way from there to the last step at which the new pose lies
+  float share = 0;              ///< of the way from there to the last step's pose at which the new one lies
 };
 
 /// How a pose is reached from the one before.
@@ -74,9 +74,9 @@ struct Stride {
   /// left in something's way, it is not made.
   bool atAnyLength = false;
   bool isLast = false;  ///< the result is shown: it is certified by a query of its own
-  /// For a pose that lies between an earlier one and the last step's: it starts from what lies between both
+  /// For a pose that lies between another and the last step's: it starts from what lies between both
   /// corrections.
-  const EarlierCorrection* earlier = nullptr;
+  const OtherCorrection* other = nullptr;
 };
 
 /// Moves vessels apart that a motion brings into one another's way, and out of bones: by continuation. Each

@@ -215,18 +215,21 @@ void FrameMaker::goTo(const Clip& clip, std::uint32_t frame) {
   }
 }
 
-// From the later one of two frames back to a time between them: what is moved aside goes over from the one to
-// the other, so that what one frame brings does not come all at once.
+// From the nearer one of two frames to a time between them: what is moved aside goes over from the one to the
+// other, so that what one frame brings does not come all at once.
 void FrameMaker::goBetween(const Clip& clip, std::uint32_t earlier, float share, float time) {
+  const bool fromLater = share >= 0.5f;
+  const std::uint32_t other = earlier + !fromLater;
+  goTo(clip, earlier + fromLater);
   at_.reset();
-  samplePose(scene_->body.skeleton, clip, clip.timeOfFrame(earlier), target_);
-  deform(target_, clip.timeOfFrame(earlier));
-  track_->at(earlier, earlier_.correction);
-  earlier_.rotations = rotations_;
-  earlier_.share = share;
+  samplePose(scene_->body.skeleton, clip, clip.timeOfFrame(other), target_);
+  deform(target_, clip.timeOfFrame(other));
+  track_->at(other, other_.correction);
+  other_.rotations = rotations_;
+  other_.share = fromLater ? share : 1 - share;
   samplePose(scene_->body.skeleton, clip, time, target_);
   deform(target_, time);
-  step({(1 - share) / clip.framesPerSecond, true, true, &earlier_});
+  step({(1 - other_.share) / clip.framesPerSecond, true, true, &other_});
 }
 
 void FrameMaker::put(std::span<const vec4> points) {

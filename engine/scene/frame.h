@@ -104,7 +104,7 @@ class FrameMaker {
   std::shared_ptr<MotionTrack> track_;
   std::optional<std::uint32_t> at_;  // frame of the track where the avoider stands
   Correction known_;                 // of the track
-  EarlierCorrection earlier_;        // of the frame before a time between two
+  OtherCorrection other_;            // of the frame before a time between two
   std::vector<vec3> restReferences_, references_;
   std::vector<quat> rotations_;
   Pose restPose_;
