@@ -120,6 +120,7 @@ struct Avoider::State {
   ContactPool pool;
   Correction accepted, correction;  // of the last step, and of this one
   Trouble acceptedTrouble;          // likewise
+  Correction other;                 // between which and that of the last step a pose lies
   std::vector<Bezier> lastTubes;    // of the last admissible shape
   std::vector<quat> lastRotations, turns;
   std::vector<vec4> lastPosed;
@@ -167,7 +168,7 @@ void Avoider::State::comeAlong(const Input& in) {
   if (!in.other) flow.fade(in.seconds, correction);
   flow.carry(lastRotations, in.posed.rotations, correction.motions);
   if (!in.other) return;
-  Correction other = in.other->correction;
+  other = in.other->correction;
   flow.carry(in.other->rotations, in.posed.rotations, other.motions);
   CorrectionFlow::mix(other, in.other->share, correction);
 }
@@ -210,7 +211,7 @@ bool Avoider::State::settled() const {
 }
 
 void Avoider::State::separate(const Input& in) {
-  {
+  if (!in.other) {  // between two poses nothing is turned back that neither of them has turned back
     StageClock clock(in.report.solveMs);
     sides.findTurned(interference.tubes(), in.posed.rotations, turned);
     pool.addSides(turned, interference.tubes(), pace.slow(), correction.motions);
