@@ -81,7 +81,7 @@ struct Avoider::State {
     std::span<vec4> points;
     AvoidReport& report;
     float seconds = 0;
-    const OtherCorrection* other = nullptr;
+    bool inPlace = false;
   };
   void pose(const PosedVessels& posed);
   Correction noCorrection() const;
@@ -120,7 +120,6 @@ struct Avoider::State {
   ContactPool pool;
   Correction accepted, correction;  // of the last step, and of this one
   Trouble acceptedTrouble;          // likewise
-  Correction other;                 // between which and that of the last step a pose lies
   std::vector<Bezier> lastTubes;    // of the last admissible shape
   std::vector<quat> lastRotations, turns;
   std::vector<vec4> lastPosed;
@@ -165,12 +164,9 @@ Correction Avoider::State::noCorrection() const {
 // What the last step's correction has become.
 void Avoider::State::comeAlong(const Input& in) {
   correction = accepted;
-  if (!in.other) flow.fade(in.seconds, correction);
+  if (in.inPlace) return;
+  flow.fade(in.seconds, correction);
   flow.carry(lastRotations, in.posed.rotations, correction.motions);
-  if (!in.other) return;
-  other = in.other->correction;
-  flow.carry(in.other->rotations, in.posed.rotations, other.motions);
-  CorrectionFlow::mix(other, in.other->share, correction);
 }
 
 // The shape that belongs to a correction.
@@ -211,7 +207,7 @@ bool Avoider::State::settled() const {
 }
 
 void Avoider::State::separate(const Input& in) {
-  if (!in.other) {  // between two poses nothing is turned back that neither of them has turned back
+  if (!in.inPlace) {
     StageClock clock(in.report.solveMs);
     sides.findTurned(interference.tubes(), in.posed.rotations, turned);
     pool.addSides(turned, interference.tubes(), pace.slow(), correction.motions);
@@ -421,7 +417,7 @@ std::optional<AvoidReport> Avoider::step(const PosedVessels& posed, const Volume
                                          const Stride& stride, std::span<vec4> points) {
   State& state = *state_;
   AvoidReport report;
-  const State::Input in{posed, volume, state.shape, report, stride.seconds, stride.other};
+  const State::Input in{posed, volume, state.shape, report, stride.seconds, stride.inPlace};
   state.pool.clear();
   state.pose(posed);
   state.pace.begin(state.lastPosed, posed.points, stride.seconds);

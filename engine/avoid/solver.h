@@ -60,13 +60,6 @@ struct AvoidReport {
   void addTimes(const AvoidReport& earlier);
 };
 
-/// A correction that was found for another pose.
-struct OtherCorrection {
-  Correction correction;
-  std::vector<quat> rotations;  ///< as PosedVessels', in its pose
-  float share = 0;              ///< of the way from there to the last step's pose at which the new one lies
-};
-
 /// How a pose is reached from the one before.
 struct Stride {
   float seconds = 0;  ///< since then
@@ -74,9 +67,8 @@ struct Stride {
   /// left in something's way, it is not made.
   bool atAnyLength = false;
   bool isLast = false;  ///< the result is shown: it is certified by a query of its own
-  /// For a pose that lies between another and the last step's: it starts from what lies between both
-  /// corrections.
-  const OtherCorrection* other = nullptr;
+  /// The pose is that of start(), whose correction is only made admissible: nothing fades or is turned back.
+  bool inPlace = false;
 };
 
 /// Moves vessels apart that a motion brings into one another's way, and out of bones: by continuation. Each

@@ -41,6 +41,7 @@ FrameMaker::FrameMaker(const Scene& scene, FrameOptions options)
       avoider_(options.avoid ? std::make_unique<Avoider>(scene.network, &scene.body, options.avoidance)
                              : nullptr),
       track_(options.track ? options.track : std::make_shared<MotionTrack>()),
+      flow_(scene.network),
       restReferences_(vasa::restReferences(scene.network)),
       references_(restReferences_),
       rotations_(scene.network.points().size()),
@@ -215,21 +216,22 @@ void FrameMaker::goTo(const Clip& clip, std::uint32_t frame) {
   }
 }
 
-// From the nearer one of two frames to a time between them: what is moved aside goes over from the one to the
-// other, so that what one frame brings does not come all at once.
+// At a time between two frames: what is moved aside goes over from the one to the other, so that what one
+// frame brings does not come all at once, and is made admissible.
 void FrameMaker::goBetween(const Clip& clip, std::uint32_t earlier, float share, float time) {
-  const bool fromLater = share >= 0.5f;
-  const std::uint32_t other = earlier + !fromLater;
-  goTo(clip, earlier + fromLater);
   at_.reset();
-  samplePose(scene_->body.skeleton, clip, clip.timeOfFrame(other), target_);
-  deform(target_, clip.timeOfFrame(other));
-  track_->at(other, other_.correction);
-  other_.rotations = rotations_;
-  other_.share = fromLater ? share : 1 - share;
+  for (const std::uint32_t k : {0u, 1u}) {
+    samplePose(scene_->body.skeleton, clip, clip.timeOfFrame(earlier + k), target_);
+    deform(target_, clip.timeOfFrame(earlier + k));
+    track_->at(earlier + k, beside_[k].correction);
+    beside_[k].rotations = rotations_;
+  }
   samplePose(scene_->body.skeleton, clip, time, target_);
   deform(target_, time);
-  step({(1 - other_.share) / clip.framesPerSecond, true, true, &other_});
+  for (Beside& beside : beside_) flow_.carry(beside.rotations, rotations_, beside.correction.motions);
+  CorrectionFlow::mix(beside_[0].correction, share, beside_[1].correction);
+  start(beside_[1].correction);
+  step({.seconds = 1 / clip.framesPerSecond, .atAnyLength = true, .isLast = true, .inPlace = true});
 }
 
 void FrameMaker::put(std::span<const vec4> points) {

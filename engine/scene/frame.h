@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <memory>
 #include <optional>
 
@@ -104,7 +105,12 @@ class FrameMaker {
   std::shared_ptr<MotionTrack> track_;
   std::optional<std::uint32_t> at_;  // frame of the track where the avoider stands
   Correction known_;                 // of the track
-  OtherCorrection other_;            // of the frame before a time between two
+  CorrectionFlow flow_;
+  struct Beside {
+    Correction correction;
+    std::vector<quat> rotations;
+  };
+  std::array<Beside, 2> beside_;  // the frames before and after a time between them
   std::vector<vec3> restReferences_, references_;
   std::vector<quat> rotations_;
   Pose restPose_;
