@@ -35,10 +35,8 @@ struct Options {
 struct Setting {
   Scene scene;
   const Clip* clip = nullptr;
-  Clip timing;  // the clip's times at the rate that was asked for, and nothing else
+  Clip timing;
   FrameRange range;
-
-  float timeOf(std::uint32_t frame) const { return clip ? timing.timeOfFrame(frame) : 0; }
 };
 
 Result<Setting> prepare(const Options& options) {
@@ -50,10 +48,7 @@ Result<Setting> prepare(const Options& options) {
   const auto clip = sceneClip(setting.scene, *choice);
   if (!clip) return clip.error();
   setting.clip = *clip;
-  if (setting.clip) {
-    const float rate = options.fps > 0 ? float(options.fps) : setting.clip->framesPerSecond;
-    setting.timing = {.start = setting.clip->start, .end = setting.clip->end, .framesPerSecond = rate};
-  }
+  setting.timing = timingOf(setting.clip, options.fps);
   const auto range = parseFrameRange(options.frames, setting.timing.frameCount());
   if (!range) return range.error();
   setting.range = *range;
@@ -341,7 +336,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   if (options.method == "paper") looks.paper.emplace(setting->scene.network);
   for (std::uint32_t frame = first; frame <= last; ++frame) {
     checkpoint();
-    maker.make(setting->clip, setting->timeOf(frame));
+    maker.make(setting->clip, setting->timing.timeOfFrame(frame));
     report["frames"].push_back(frameReport(setting->scene, maker, looks, frame, options));
     looks.loads.look(frame, maker.points(), *maker.avoider());
     progress.update(frame - first + 1, last - first + 1);

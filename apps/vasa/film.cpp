@@ -45,8 +45,8 @@ Film::Film(const FilmJob& job, const FrameOptions& frame, gpu::Device& device)
 Result<void> Film::run() {
   ProgressLine progress("rendering");
   if (!job_.video.empty()) {
-    auto video = VideoWriter::create(job_.video, job_.render.width, job_.render.height,
-                                     job_.clip ? job_.clip->framesPerSecond : 30);
+    auto video =
+        VideoWriter::create(job_.video, job_.render.width, job_.render.height, job_.timing.framesPerSecond);
     if (!video) return video.error();
     video_.emplace(std::move(*video));
   }
@@ -72,7 +72,7 @@ Result<void> Film::makeFrame(std::uint32_t frame) {
       return video_->write(*picture);
     }
   }
-  maker_->make(job_.clip, job_.clip ? job_.clip->timeOfFrame(frame) : 0);
+  maker_->make(job_.clip, job_.timing.timeOfFrame(frame));
   noteStep(frame);
   if (job_.highlightContacts)
     highlightContacts();

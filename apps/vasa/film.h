@@ -22,6 +22,7 @@ struct FilmJob {
   SceneFile choice;
   Scene scene;
   const Clip* clip = nullptr;
+  Clip timing;  ///< of the frames
   CameraMan camera;
   Look look;
   RenderOptions render;

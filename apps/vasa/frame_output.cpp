@@ -43,6 +43,13 @@ std::optional<std::pair<std::uint32_t, std::uint32_t>> product(const std::string
 
 }  // namespace
 
+Clip timingOf(const Clip* clip, double fps) {
+  if (!clip) return {};
+  return {.start = clip->start,
+          .end = clip->end,
+          .framesPerSecond = fps > 0 ? float(fps) : clip->framesPerSecond};
+}
+
 Result<FrameRange> parseFrameRange(const std::string& text, std::uint32_t count) {
   FrameRange range{0, count - 1};
   if (text.empty()) return range;

@@ -4,9 +4,15 @@
 #include <string>
 #include <vector>
 
+#include "body/clip.h"
 #include "core/result.h"
 
 namespace vasa::cli {
+
+/// When a film's frames are: a clip's times alone, at its own rate or another; without a clip one frame, at
+/// 0.
+/// @param fps  frames a second; 0: the clip's own
+Clip timingOf(const Clip* clip, double fps);
 
 /// "A:B", "A:" or ":B" or "A": the first and last frame, both included, within a clip of `count` frames.
 struct FrameRange {

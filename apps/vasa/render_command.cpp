@@ -40,6 +40,7 @@ struct Options {
   std::string labels, title, colour;  // colour empty: as the scene says
   std::string forks = "on";
   std::string settings;  // see settingsOf
+  double fps = 0;        // 0: the clip's own
   std::uint32_t supersample = 1;
   bool beat = false;
   TissueOptions tissue;
@@ -173,7 +174,8 @@ Result<FilmJob> prepare(const Globals& globals, const Options& options) {
   const auto clip = sceneClip(job.scene, job.choice);
   if (!clip) return clip.error();
   job.clip = *clip;
-  const auto range = parseFrameRange(options.frames, job.clip ? job.clip->frameCount() : 1);
+  job.timing = timingOf(job.clip, options.fps);
+  const auto range = parseFrameRange(options.frames, job.timing.frameCount());
   if (!range) return range.error();
   if (options.output != "-" && !options.output.empty()) {
     auto pattern = FramePattern::parse(options.output, range->first != range->last);
@@ -241,7 +243,10 @@ Result<void> makeTrack(const Globals& globals, const Options& options, const Fil
   if (!track) return track.error();
   FrameMaker maker(job.scene, frame);
   ProgressLine progress("solving");
-  const std::uint32_t count = job.range.last + 1;
+  // The clip's own frames, up to the first that is no earlier than the last one asked for.
+  const float last = job.timing.timeOfFrame(job.range.last) - job.clip->start;
+  const std::uint32_t count = std::min(std::uint32_t(std::ceil(last * job.clip->framesPerSecond - 1e-3f)) + 1,
+                                       job.clip->frameCount());
   std::uint32_t solved = 0;
   setPatience(kPatienceToSave);  // what is solved is kept, so frames are left whole
   const CancellationScope fromWithin(nullptr);
@@ -356,6 +361,8 @@ void addRender(CLI::App& app, Command& command) {
   addCameraOptions(*sub, options->camera);
   addCapillaryOptions(*sub, options->capillaries);
   sub->add_option("--frames", options->frames, "FIRST:LAST frame, both included (default: the whole clip)");
+  sub->add_option("--fps", options->fps, "Frames a second to draw and to number (default: the clip's own)")
+      ->check(CLI::Range(0.1, 1000.0));
   sub->add_option("--size", options->size, "Picture size in pixels")->capture_default_str();
   sub->add_option("-o,--output", options->output,
                   "PNG files, e.g. 'out/{frame:04}.png'; - writes one PNG to standard output");

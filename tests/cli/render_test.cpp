@@ -21,6 +21,12 @@ std::vector<std::string> walk(const std::filesystem::path& folder, std::initiali
   return arguments;
 }
 
+std::vector<std::uint8_t> pixelsOf(const std::filesystem::path& file) {
+  auto picture = readPng(file);
+  REQUIRE(picture.ok());
+  return std::move(picture->rgba);
+}
+
 }  // namespace
 
 TEST_CASE("a clip becomes numbered pictures with vessels in them") {
@@ -116,6 +122,28 @@ TEST_CASE("a track alone draws nothing, needs no device, and gives the pictures 
     CHECK(runProgram(arguments).exit == 2);
   }
   CHECK(listOf(tracks.path() / "new") == std::vector<std::string>{"walk.track"});
+}
+
+TEST_CASE("at twice the clip's rate every other frame is the clip's own, also from a track") {
+  TemporaryFolder tracks, own, twice, share;
+  const std::string track = (tracks.path() / "walk.track").string();
+  const auto solved =
+      runProgram({"render", "--clip", "walk", "--fps", "60", "--frames", "0:3", "--track", track, "--json"});
+  REQUIRE_MESSAGE(solved.exit == 0, solved.err);
+  CHECK(solved.json()["frames"] == 3);  // of the clip: 0, 1 and 2, which frame 3 lies before
+  REQUIRE(runProgram(walk(own.path(), {"--frames", "0:2"})).exit == 0);
+  const auto film = runProgram(walk(twice.path(), {"--fps", "60", "--frames", "0:4"}));
+  REQUIRE_MESSAGE(film.exit == 0, film.err);
+  CHECK(listOf(twice.path()).size() == 5);
+  CHECK(pixelsOf(twice.path() / "002.png") == pixelsOf(own.path() / "001.png"));
+  CHECK(pixelsOf(twice.path() / "004.png") == pixelsOf(own.path() / "002.png"));
+  CHECK(pixelsOf(twice.path() / "003.png") != pixelsOf(own.path() / "001.png"));
+  CHECK(pixelsOf(twice.path() / "003.png") != pixelsOf(own.path() / "002.png"));
+  REQUIRE(
+      runProgram(walk(share.path(), {"--fps", "60", "--frames", "0:4", "--shard", "1/2", "--track", track}))
+          .exit == 0);
+  CHECK(listOf(share.path()) == std::vector<std::string>{"001.png", "003.png"});
+  CHECK(pixelsOf(share.path() / "003.png") == pixelsOf(twice.path() / "003.png"));
 }
 
 TEST_CASE("shards share a film without overlap, and --resume keeps what is there") {
