@@ -355,6 +355,7 @@ void addRender(CLI::App& app, Command& command) {
       "  vasa render --clip walk -o 'out/{frame:04}.png' --video walk.mp4\n"
       "  vasa render --body b.glb --network b.vasa --clip fist --focus LeftHand --camera left -o 'out/{frame:04}.png'\n"
       "  vasa render --clip squat --frames 30 --size 640x1280 -o - > picture.png\n"
+      "  vasa render --clip run --fps 120 --video slow.mp4    (four frames for each of the clip's)\n"
       "  vasa render --clip walk --track walk.track    (solves the motion for later runs, draws nothing)");
   addSceneOptions(*sub, options->scene);
   addTrackOption(*sub, options->track);
