@@ -1,6 +1,7 @@
 #include "body/body.h"
 
 #include "body/skinning.h"
+#include "body/trunk.h"
 #include "math/aabb.h"
 
 namespace vasa {
@@ -16,7 +17,7 @@ float Body::height() const {
   }
   if (box.empty())
     for (const mat4& joint : rest.world) box.add(vec3(joint[3]));
-  return box.empty() ? 0 : box.extent().y;
+  return box.empty() ? 0 : box.extent()[uprightAxis(rigOf(skeleton))];
 }
 
 }  // namespace vasa

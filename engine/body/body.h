@@ -57,7 +57,7 @@ struct Body {
     const std::size_t joints = skeleton.joints.size();
     return influence < joints ? influence : axialBones[influence - joints].carrier.value;
   }
-  /// Vertical extent of the meshes at rest, or of the joints if there are none [m].
+  /// Extent of the meshes at rest along uprightAxis() (body/trunk.h), or of the joints if there are none [m].
   float height() const;
 };
 

@@ -8,9 +8,11 @@
 #include "body/binding.h"
 #include "body/deform.h"
 #include "body/inside.h"
+#include "body/motion_rest.h"
 #include "body/retarget.h"
 #include "body/skin_warp.h"
 #include "body/ties.h"
+#include "body/trunk.h"
 #include "core/ids.h"
 #include "core/parallel.h"
 
@@ -144,9 +146,10 @@ class Carrier {
     match_ = std::move(pairs->source);
     releaseLonely(from_.skeleton, match_);
     releaseMisplaced(from_.skeleton, to_.skeleton, match_);
-    auto pose = retarget(standingStill(to_), from_, map);
+    auto pose = retargeted(standingStill(to_), from_, map);
     if (!pose) return pose.error();
-    if (auto posed = poseAll(*pose); !posed) return posed.error();
+    if (auto posed = poseAll(pose->clip); !posed) return posed.error();
+    layDown(pose->up);
     measureSizes();
     stretchAll();
     warpToSkin();
@@ -177,6 +180,14 @@ class Carrier {
     points_.resize(rest.size());
     Deformer(binding_).run(rest, pose_, points_);
     return {};
+  }
+
+  // A motion is told upright; the other body may lie at rest.
+  void layDown(vec3 up) {
+    if (up == vec3(0, 1, 0)) return;
+    const mat3 turn = glm::transpose(uprightTurn(up));
+    for (vec4& point : points_) point = vec4(turn * vec3(point), point.w);
+    for (mat4& joint : pose_.world) joint = mat4(turn) * joint;
   }
 
   void measureSizes() {
@@ -254,7 +265,8 @@ class Carrier {
     shell_ = std::make_unique<SkinShell>(std::move(target));
     for (std::size_t v = 0; v < skin_.positions.size(); ++v)
       skin_.positions[v] = vec3(points_[network_.points().size() + v]);
-    SkinWarp(skin_, *shell_).run(std::span(points_).first(network_.points().size()));
+    const float height = shell_->mesh().bounds().extent()[uprightAxis(rigOf(to_.skeleton))];
+    SkinWarp(skin_, *shell_, height).run(std::span(points_).first(network_.points().size()));
   }
 
   void pushInside() {

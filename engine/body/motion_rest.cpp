@@ -222,8 +222,8 @@ vec3 upOf(const Motion& motion, std::span<const std::string_view> parts) {
   return upright && forPosed >= 2 ? posed : zeroUp;
 }
 
-Motion withUp(const Motion& motion, vec3 up) {
-  if (up == vec3(0, 1, 0)) return motion;
+mat3 uprightTurn(vec3 up) {
+  if (up == vec3(0, 1, 0)) return mat3(1);
   const vec3 side = up == vec3(0, -1, 0) ? vec3(1, 0, 0) : glm::cross(vec3(0, 1, 0), up);
   // Rows: what becomes x, y, z. A quarter turn about the axis that is neither, a half turn about x where up
   // was down.
@@ -232,6 +232,12 @@ Motion withUp(const Motion& motion, vec3 up) {
   if (std::abs(up.z) > 0.5f)
     turn = up.z > 0 ? mat3(vec3(1, 0, 0), vec3(0, 0, -1), vec3(0, 1, 0))
                     : mat3(vec3(1, 0, 0), vec3(0, 0, 1), vec3(0, -1, 0));
+  return turn;
+}
+
+Motion withUp(const Motion& motion, vec3 up) {
+  if (up == vec3(0, 1, 0)) return motion;
+  const mat3 turn = uprightTurn(up);
   const quat q = glm::normalize(glm::quat_cast(turn));
   Motion turned = motion;
   for (Motion::Joint& joint : turned.joints)

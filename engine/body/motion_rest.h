@@ -29,7 +29,9 @@ std::vector<std::uint32_t> sampledFrames(const Motion& motion, std::uint32_t mos
 /// @param parts  what each joint is (body/humanoid.h)
 vec3 upOf(const Motion& motion, std::span<const std::string_view> parts);
 
-/// The same motion told with this axis as +Y. @param up  one of the axes' directions
+/// The turn that makes this axis +Y. @param up  one of the axes' directions
+mat3 uprightTurn(vec3 up);
+/// The same motion told with this axis as +Y, by that turn.
 Motion withUp(const Motion& motion, vec3 up);
 
 /// The pose to compare a body's rest pose with: all rotations zero, where that is a person who stands (arms

@@ -61,8 +61,7 @@ void smooth(const TriangleMesh& skin, Wishes& wishes) {
 
 }  // namespace
 
-SkinWarp::SkinWarp(TriangleMesh skin, const SkinShell& target) {
-  const float height = target.mesh().bounds().extent().y;
+SkinWarp::SkinWarp(TriangleMesh skin, const SkinShell& target, float height) {
   for (int round = 0; round < kWarpRounds; ++round) {
     const std::vector<vec3> normals = vertexNormals(skin);
     Wishes wishes = askAll(skin, normals, target, kFarthest * height);

@@ -14,7 +14,8 @@ class SkinWarp {
  public:
   /// @param skin    of the first body, as near to the second's as it is known; vertices move with the warp
   /// @param target  the second's
-  SkinWarp(TriangleMesh skin, const SkinShell& target);
+  /// @param height  [m] of the second body, whichever way it lies
+  SkinWarp(TriangleMesh skin, const SkinShell& target, float height);
 
   /// Moves points that moved with the skin so far. In parallel; a pure function of the input.
   void run(std::span<vec4> points) const;

@@ -162,7 +162,7 @@ Result<SurfaceCarried> carryBySurface(const Network& network, const TriangleMesh
   parallelFor(depths.size(), 32,
               [&](std::size_t i) { depths[i] = by.scale * around.look(vec3(network.points()[i])).depth; });
   for (vec3& p : placed.positions) p = by(p);
-  SkinWarp(std::move(placed), skin).run(carried.points);
+  SkinWarp(std::move(placed), skin, skin.mesh().bounds().extent().y).run(carried.points);
   carried.pushedIn = moveInside(network, depths, skin, carried.bodyHeight, carried.points);
   pinEnds(network, carried.points);
   return out;

@@ -132,6 +132,13 @@ Trunk findTrunk(const Rig& rig) {
   return trunk;
 }
 
+int uprightAxis(const Rig& rig) {
+  const Trunk trunk = findTrunk(rig);
+  if (!trunk.known()) return 1;
+  const vec3 way = glm::abs(trunk.way(rig.centres));
+  return way.y >= std::max(way.x, way.z) ? 1 : way.x > way.z ? 0 : 2;
+}
+
 void nameTrunk(Rig& rig) {
   findHips(rig);
   findHead(rig);

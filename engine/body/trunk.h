@@ -29,6 +29,10 @@ struct Trunk {
 /// call a spine, to the joint on which hips or legs hang. O(joints)
 Trunk findTrunk(const Rig& rig);
 
+/// The axis (0 to 2) along which the trunk lies at rest: 1, which is up, also where there is no trunk.
+/// Patients lie at rest, and so does what was exported with another axis up.
+int uprightAxis(const Rig& rig);
+
 /// Names hips, spine, neck and head by how they hang together, where arms and legs are known and names tell
 /// nothing of them, or only some of the spine. O(joints²)
 void nameTrunk(Rig& rig);

@@ -88,6 +88,49 @@ TEST_CASE("joints of a spine that sit at other vertebrae stretch no vessel") {
   CHECK(worstAway(carried->points, network.points()) < 0.01f);
 }
 
+TEST_CASE("a body that lies at rest, whichever way, takes vessels as one that stands") {
+  const Body standing = person();
+  const vec3 head(standing.skeleton.joints[standing.skeleton.find("head").value].restWorld[3]);
+  NetworkBuilder builder;
+  builder.addVessel({"in the head"}, straightVessel(head + vec3(-0.03f, 0.08f, 0.05f),
+                                                    head + vec3(0.04f, 0.12f, 0.02f), 0.002f, 8));
+  builder.addVessel({"in the trunk"}, straightVessel({0.1f, 1.0f, 0.05f}, {0.1f, 1.3f, 0.05f}, 0.005f, 8));
+  builder.addVessel({"in the foot"}, straightVessel({0.09f, 0.03f, 0}, {0.09f, 0.03f, 0.1f}, 0.002f, 8));
+  const auto network = builder.build(1.75f);
+  REQUIRE(network.ok());
+  const auto there = carryNetwork(*network, standing, standing, "a.vasa");
+  REQUIRE(there.ok());
+  CHECK(worstAway(there->points, network->points()) < 0.01f);
+  for (const vec3 axis : {vec3(1, 0, 0), vec3(0, 0, 1), vec3(-1, 0, 0), vec3(0, 0, -1)}) {
+    const mat4 turn = mat4(mat3_cast(glm::angleAxis(kPi / 2, axis)));
+    Body lying = standing;
+    lying.skeleton.rootTransform = turn * lying.skeleton.rootTransform;
+    for (auto& joint : lying.skeleton.joints)
+      joint.restWorld = turn * joint.restWorld, joint.inverseBind = glm::inverse(joint.restWorld);
+    for (vec3& p : lying.meshes[0].mesh.positions) p = vec3(turn * vec4(p, 1));
+    for (vec3& n : lying.meshes[0].normals) n = vec3(turn * vec4(n, 0));
+    CHECK(lying.height() == doctest::Approx(standing.height()).epsilon(1e-4));
+    const auto carried = carryNetwork(*network, standing, lying, "a.vasa");
+    if (!carried.ok()) FAIL(carried.error().message);
+    CHECK(carried->bodyHeight == doctest::Approx(there->bodyHeight).epsilon(1e-4));
+    std::vector<vec4> wanted;
+    for (const vec4& p : there->points) wanted.push_back(vec4(vec3(turn * vec4(vec3(p), 1)), p.w));
+    CHECK_MESSAGE(worstAway(carried->points, wanted) < 0.005f, axis.x << ' ' << axis.z);
+    // And back, out of the lying one.
+    std::vector<vec4> points(carried->points);
+    NetworkBuilder again;
+    for (const Vessel& vessel : network->vessels()) {
+      const auto own = Network::pointsOf(vessel, std::span<const vec4>(points));
+      again.addVessel({vessel.name}, {own.begin(), own.end()});
+    }
+    const auto lain = again.build(1.75f);
+    REQUIRE(lain.ok());
+    const auto back = carryNetwork(*lain, lying, standing, "a.vasa");
+    if (!back.ok()) FAIL(back.error().message);
+    CHECK_MESSAGE(worstAway(back->points, there->points) < 0.01f, axis.x << ' ' << axis.z);
+  }
+}
+
 TEST_CASE(
     "a trunk's surface is found in a body wherever it stands and whatever it faces, and its vessels follow") {
   const Body body = person();
