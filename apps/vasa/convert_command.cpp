@@ -244,6 +244,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   output->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (globals.json) {
     Report report = convertJson(conversion->report, *output);
+    leftOut.insert(leftOut.end(), conversion->outerWalls.begin(), conversion->outerWalls.end());
     report["left_out"] = leftOut;
     addRestRepair(report["summary"], repair);
     if (patches) report["patches"] = patchesJson(*patches, conversion->network);
@@ -271,6 +272,7 @@ void addConvert(CLI::App& app, Command& command) {
       "The kind of vessel comes from the file's extras, else from an FMA or UBERON number, else from the element's name, else\n"
       "from the file's, else from the names around it (mesh, collection, material), else from its colour.\n"
       "Elements that repeat others are dropped; ends that meet are joined, arteries to arteries and veins to veins.\n"
+      "What is no vessel by its name, and the outside of another element's wall, is left out (left_out of --json).\n"
       "Vessels that run through one another are moved apart by up to 6 mm and thinned by up to 1 mm (overlaps; rest_overlaps\n"
       "of --json names those that stay, with the reason). --no-part leaves them where the surfaces have them: nearer to the\n"
       "source, but what overlaps at rest is not held apart in motion, and check says so.");

@@ -46,16 +46,31 @@ std::string millimetresText(float metres) {
   return text.data();
 }
 
-// With every hollow wall by its lumen alone; empty where there is none.
-std::vector<SourceElement> byLumen(std::span<const SourceElement> elements, float weldTolerance) {
+struct Lumina {
+  std::vector<SourceElement> elements;  // empty where all are as they were
+  std::vector<std::string> walls;       // those that are not among them
+};
+
+// With every hollow wall by its lumen alone, and without walls that are elements of their own.
+Lumina byLumen(std::span<const SourceElement> elements, float weldTolerance) {
   std::vector<std::optional<TriangleMesh>> lumina(elements.size());
   parallelFor(elements.size(), 1,
               [&](std::size_t e) { lumina[e] = withoutOuterWalls(elements[e].element.mesh, weldTolerance); });
-  if (std::ranges::none_of(lumina, [](const auto& lumen) { return lumen.has_value(); })) return {};
-  std::vector<SourceElement> changed(elements.begin(), elements.end());
-  for (std::size_t e = 0; e < changed.size(); ++e)
-    if (lumina[e]) changed[e].element.mesh = std::move(*lumina[e]), changed[e].byLumen = true;
-  return changed;
+  const std::vector<bool> walls = outerWalls(elements);
+  Lumina all;
+  if (std::ranges::none_of(lumina, [](const auto& lumen) { return lumen.has_value(); }) &&
+      std::ranges::count(walls, true) == 0)
+    return all;
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    if (walls[e]) {
+      all.walls.push_back(elements[e].element.name);
+      continue;
+    }
+    all.elements.push_back(elements[e]);
+    if (lumina[e])
+      all.elements.back().element.mesh = std::move(*lumina[e]), all.elements.back().byLumen = true;
+  }
+  return all;
 }
 
 constexpr const char* kMergeFirst = "merge the vertices of triangles that belong side by side first";
@@ -92,9 +107,12 @@ Error nothingFound(std::span<const SourceElement> elements, std::span<const Elem
 }  // namespace
 
 Result<Conversion> convertElements(std::span<const SourceElement> given, const ConvertOptions& options) {
-  std::vector<SourceElement> lumina = byLumen(given, options.element.weldTolerance);
+  Lumina lumina = byLumen(given, options.element.weldTolerance);
   const std::span<const SourceElement> elements =
-      lumina.empty() ? given : std::span<const SourceElement>(lumina);
+      lumina.elements.empty() ? given : std::span<const SourceElement>(lumina.elements);
+  if (!lumina.walls.empty())
+    logInfo(std::to_string(lumina.walls.size()) +
+            " elements are the outside of others' walls, and left out: '" + lumina.walls.front() + "' first");
   if (const auto first = std::ranges::find(elements, true, &SourceElement::byLumen); first != elements.end())
     logInfo(std::to_string(std::ranges::count(elements, true, &SourceElement::byLumen)) +
             " elements are walls with an inside and an outside, which is left out: '" + first->element.name +
@@ -140,7 +158,7 @@ Result<Conversion> convertElements(std::span<const SourceElement> given, const C
   const auto errors = measureSurfaceErrors(*assembly, elements, standIns, options.error);
   ConvertReport report = makeReport(*assembly, elements, outcomes, errors, joins);
   return Conversion{std::move(assembly->network), std::move(report), std::move(assembly->elementOf),
-                    std::move(lumina)};
+                    std::move(lumina.elements), std::move(lumina.walls)};
 }
 
 }  // namespace vasa

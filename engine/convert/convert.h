@@ -29,8 +29,9 @@ struct Conversion {
   ConvertReport report;
   std::vector<std::uint32_t> elementOf;  ///< vessel -> element
   /// The elements with every wall that has an inside and an outside by its lumen alone (convert/hollow.h);
-  /// empty where there is none.
+  /// and without those that are outsides of others' walls; empty where there is none.
   std::vector<SourceElement> lumina = {};
+  std::vector<std::string> outerWalls = {};  ///< names of the latter
 };
 
 /// Polygonal vessels to one network: drop what repeats, skeletonise each element in parallel, join forks and

@@ -8,6 +8,7 @@
 #include "convert/duplicates.h"
 #include "convert/wall_faces.h"
 #include "core/cancellation.h"
+#include "core/parallel.h"
 #include "mesh/components.h"
 #include "mesh/surface_samples.h"
 #include "mesh/triangle_tree.h"
@@ -21,6 +22,8 @@ constexpr std::size_t kSamples = 200;
 constexpr float kNearlyAll = 0.85f;  // of the samples, as elements that repeat others have (duplicates.h)
 // Of the outside's radius: walls of arteries are up to a third of it thick, stiff and narrowed ones half.
 constexpr float kThickest = 0.6f;
+// Of it, too: a coarser copy lies inside as well, but for its corners, which are on the surface.
+constexpr float kThinnest = 0.03f;
 constexpr double kLeastShare = 0.1;   // of the outside's area: less cannot be a wall's inside
 constexpr double kLeastOfAll = 0.01;  // of the surface: an outside has more
 
@@ -41,6 +44,15 @@ bool liesAlong(const TriangleMesh& outer, const TriangleMesh& inner) {
   const float thickest = kThickest * roughRadius(outer);
   return nearlyAll(sampleSurface(outer, kSamples),
                    [&](vec3 p) { return tree.nearest(p, thickest).distance < thickest; });
+}
+
+bool standsOff(const TriangleMesh& outer, const TriangleMesh& inner) {
+  const TriangleTree tree(outer);
+  const float thinnest = kThinnest * roughRadius(outer);
+  std::vector<vec3> corners;
+  for (std::size_t v = 0; v < inner.positions.size(); v += 1 + inner.positions.size() / kSamples)
+    corners.push_back(inner.positions[v]);
+  return nearlyAll(corners, [&](vec3 p) { return tree.nearest(p, thinnest).distance >= thinnest; });
 }
 
 bool couldLieIn(const Aabb& inner, const Aabb& outer) {
@@ -92,6 +104,34 @@ std::optional<TriangleMesh> withoutOuterWalls(const TriangleMesh& mesh, float we
   }
   if (!any) return std::nullopt;
   return left;
+}
+
+std::vector<bool> outerWalls(std::span<const SourceElement> elements) {
+  const std::size_t count = elements.size();
+  std::vector<Aabb> boxes(count);
+  std::vector<float> radii(count);
+  for (std::size_t e = 0; e < count; ++e)
+    boxes[e] = elements[e].element.mesh.bounds(), radii[e] = roughRadius(elements[e].element.mesh);
+  // A stent or a catheter lies inside, too, and is thinner than any lumen.
+  const auto couldBe = [&](std::size_t outer, std::size_t inner) {
+    const VesselKind own = elements[outer].kind, other = elements[inner].kind;
+    const bool oneKind = own == VesselKind::other || other == VesselKind::other || sameFamily(own, other);
+    return inner != outer && oneKind && radii[inner] < radii[outer] &&
+           radii[inner] > (1 - kThickest) * radii[outer] && couldLieIn(boxes[inner], boxes[outer]) &&
+           glm::length(boxes[inner].extent()) > kNearlyAll * glm::length(boxes[outer].extent());
+  };
+  std::vector<std::uint8_t> walls(count);
+  parallelFor(count, 1, [&](std::size_t outer) {
+    const TriangleMesh& wall = elements[outer].element.mesh;
+    std::optional<WindingNumber> winding;
+    for (std::size_t inner = 0; inner < count && !walls[outer]; ++inner) {
+      if (wall.empty() || elements[inner].element.mesh.empty() || !couldBe(outer, inner)) continue;
+      if (!winding) winding.emplace(wall.positions, wall.triangles);
+      const TriangleMesh& lumen = elements[inner].element.mesh;
+      walls[outer] = liesInside(lumen, *winding) && standsOff(wall, lumen) && liesAlong(wall, lumen);
+    }
+  });
+  return {walls.begin(), walls.end()};
 }
 
 }  // namespace vasa

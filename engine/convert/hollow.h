@@ -1,7 +1,9 @@
 #pragma once
 #include <optional>
+#include <span>
+#include <vector>
 
-#include "mesh/triangle_mesh.h"
+#include "convert/source.h"
 
 namespace vasa {
 
@@ -13,5 +15,11 @@ namespace vasa {
 /// @return nothing where nothing is another's outside. O(n log n), and as much for each pair of pieces that
 /// could be
 std::optional<TriangleMesh> withoutOuterWalls(const TriangleMesh& mesh, float weldTolerance);
+
+/// Which elements are the outside of another one's wall, as lumen and wall of one segmentation are: that one
+/// lies inside it and stands off it (a coarser copy does not), is as wide but for the wall, of no other kind
+/// that is known, and it lies all along that one. Every element is compared with those whose boxes it holds;
+/// parallel.
+std::vector<bool> outerWalls(std::span<const SourceElement> elements);
 
 }  // namespace vasa

@@ -121,3 +121,42 @@ TEST_CASE("of several vessels in one surface each hollow one loses its outside")
       0.99 * tubeBetween(kFrom, kTo, 0.010f, TubeEnds::open).area() + tubeBetween(kFrom, kTo, 0.006f).area();
   CHECK(left->area() == doctest::Approx(area).epsilon(1e-3));
 }
+
+TEST_CASE(
+    "a wall that is an element of its own is left out where its lumen is another one, and that is said") {
+  const std::vector<SourceElement> elements{
+      source("wall", tubeBetween(kFrom, kTo, 0.012f, TubeEnds::open), VesselKind::other),
+      source("aorta", tubeBetween(kFrom, kTo, 0.010f, TubeEnds::open))};
+  CHECK(outerWalls(elements) == std::vector{true, false});
+  const auto conversion = convertElements(elements);
+  REQUIRE(conversion);
+  CHECK(conversion->outerWalls == std::vector<std::string>{"wall"});
+  REQUIRE(conversion->network.vessels().size() == 1);
+  CHECK(conversion->network.vessels()[0].kind == VesselKind::artery);
+  CHECK(radiusOf(conversion->network) == doctest::Approx(0.010).epsilon(0.03));
+  CHECK(conversion->report.elements.size() == 1);
+}
+
+TEST_CASE("what lies in a vessel and is no lumen of it leaves it as it is") {
+  const auto walls = [](const TriangleMesh& inner, VesselKind kind = VesselKind::other) {
+    return outerWalls(
+        std::vector{source("aorta", tubeBetween(kFrom, kTo, 0.012f)), source("inner", inner, kind)});
+  };
+  const std::vector<bool> none(2);
+  CHECK(walls(tubeBetween(kFrom, kTo, 0.002f)) == none);                         // a catheter
+  CHECK(walls(tubeBetween(kFrom, glm::mix(kFrom, kTo, 0.5f), 0.010f)) == none);  // a stent graft
+  CHECK(walls(tubeBetween(kFrom, kTo, 0.012f)) == none);                         // a copy
+  CHECK(walls(tube([](float t) { return glm::mix(kFrom, kTo, t); }, [](float) { return 0.012f; }, 8, 6,
+                   TubeEnds::flat)) == none);  // a coarser one, inside but for its corners
+  CHECK(walls(tubeBetween(kFrom, kTo, 0.010f), VesselKind::vein) == none);
+  TriangleMesh rings;  // of a stent
+  for (int i = 1; i < 20; ++i) {
+    const vec3 at = glm::mix(kFrom, kTo, float(i) / 20);
+    append(rings, tube(
+                      [=](float t) {
+                        return at + 0.0105f * vec3(std::cos(6.2831853f * t), 0, std::sin(6.2831853f * t));
+                      },
+                      [](float) { return 0.0005f; }, 40, 8, TubeEnds::open));
+  }
+  CHECK(walls(rings) == none);
+}
