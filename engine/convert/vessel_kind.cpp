@@ -22,19 +22,23 @@ bool hasAny(const std::string& text, const std::array<std::string_view, N>& word
 }
 
 // "A. femoralis", "Vv. hepaticae", "v_femoralis": anatomists' short forms, before a word that is Latin by its
-// ending where no blank stands between.
-VesselKind kindOfShortForm(std::string_view raw, std::string_view words) {
+// ending where no blank stands between. @return a, aa, v, vv, m, n ...; empty where it begins with none
+std::string_view shortForm(std::string_view raw, std::string_view words) {
   const std::size_t end = raw.find_first_of("._");
-  if (end == raw.npos || end > 2 || end + 1 >= raw.size() || words.size() < end + 3) return VesselKind::other;
+  if (end == raw.npos || end == 0 || end > 2 || end + 1 >= raw.size() || words.size() < end + 3) return {};
   const std::string_view rest = words.substr(end + 2), next = rest.substr(0, rest.find(' '));
   static constexpr std::array<std::string_view, 10> kLatin{"alis", "aris", "otis", "ae",  "ica",
                                                            "aca",  "avia", "tea",  "ena", "cava"};
   const bool latin =
       std::ranges::any_of(kLatin, [&](std::string_view ending) { return next.ends_with(ending); });
-  const bool word =
-      next.size() >= 4 && std::ranges::all_of(next, [](char c) { return c >= 'a' && c <= 'z'; });
-  if (!word || !(latin || (raw[end] == '.' && raw[end + 1] == ' '))) return VesselKind::other;
-  const std::string_view form = words.substr(1, end);
+  const bool spoken = raw[end] == '.' && raw[end + 1] == ' ';  // "V. jug. int."
+  const bool word = next.size() >= (spoken ? 3 : 4) &&
+                    std::ranges::all_of(next, [](char c) { return c >= 'a' && c <= 'z'; });
+  return word && (latin || spoken) ? words.substr(1, end) : std::string_view{};
+}
+
+VesselKind kindOfShortForm(std::string_view raw, std::string_view words) {
+  const std::string_view form = shortForm(raw, words);
   if (form == "a" || form == "aa") return VesselKind::artery;
   return form == "v" || form == "vv" ? VesselKind::vein : VesselKind::other;
 }
@@ -45,7 +49,7 @@ bool says(std::string_view raw, std::initializer_list<std::string_view> signs) {
 }
 bool saysArtery(std::string_view raw) {
   return says(raw, {"動脈", "动脉", "動静脈", "动静脉", "動靜脈", "동맥", "동정맥", "ртери", "аорт", "Аорт",
-                    "АРТЕРИ", "АОРТ"});
+                    "АРТЕРИ", "АОРТ", "腹腔干", "头臂干", "ревный ствол", "еголовной ствол", "очный ствол"});
 }
 bool saysPortal(std::string_view raw) {
   return says(raw, {"門脈", "門静脈", "门静脉", "門靜脈", "문맥", "воротная", "воротной", "Воротная"});
@@ -55,11 +59,20 @@ bool saysVein(std::string_view raw) {
                                        "ВЕНЫ", "ВЕНОЗ", "веноз"});
 }
 
+// With what follows the side in initials: LICA, RMCA, LSVC.
+std::string withInitials(std::string_view raw) {
+  const std::string words = spaced(raw);
+  std::string all = words;
+  for (std::size_t at = 1, end; (end = words.find(' ', at)) != words.npos; at = end + 1)
+    if (end - at == 4 && (words[at] == 'l' || words[at] == 'r')) all += words.substr(at + 1, 4);
+  return all;
+}
+
 // A text that says both ("artery beside a vein", "arteriovenous") says neither, and is left to the next
 // source.
-VesselKind kindInText(std::string_view raw) {
+VesselKind kindInWords(std::string_view raw, const std::string& text) {
   // Arches and arcades of hand, foot and bowel are arteries where nothing says that they are venous.
-  static constexpr std::array<std::string_view, 42> kArtery{"arter",
+  static constexpr std::array<std::string_view, 70> kArtery{"arter",
                                                             "artar",
                                                             "schlagader",
                                                             "slagader",
@@ -69,7 +82,6 @@ VesselKind kindInText(std::string_view raw) {
                                                             "coeliac trunk",
                                                             "celiac trunk",
                                                             "truncus coeliacus",
-                                                            "truncus brachiocephalicus",
                                                             "pulmonary trunk",
                                                             "truncus pulmonalis",
                                                             "brachiocephalic trunk",
@@ -100,8 +112,37 @@ VesselKind kindInText(std::string_view raw) {
                                                             "palmar arch",
                                                             "plantar arch",
                                                             "carpal arch",
-                                                            "intestinal arcade"};
-  static constexpr std::array<std::string_view, 41> kVein{" vein",
+                                                            "intestinal arcade",
+                                                            "truncus brachioc",
+                                                            "tr coeliacus",
+                                                            "tr brachioc",
+                                                            "tr pulm",
+                                                            "tronc celiaque",
+                                                            "tronc brachio",
+                                                            "tronco braquio",
+                                                            "tronco brachio",
+                                                            "ramus interventricularis",
+                                                            "r interventricularis",
+                                                            "ramus circumflexus",
+                                                            "r circumflexus",
+                                                            " rcx ",
+                                                            " riva ",
+                                                            " a com ",
+                                                            " p com ",
+                                                            " a co a ",
+                                                            " p co a ",
+                                                            " acoa ",
+                                                            " pcoa ",
+                                                            " pica ",
+                                                            " aica ",
+                                                            " eia ",
+                                                            " iia ",
+                                                            " cia ",
+                                                            " pda ",
+                                                            " ima ",
+                                                            " lpa ",
+                                                            " rpa "};
+  static constexpr std::array<std::string_view, 53> kVein{" vein",
                                                           " vena ",
                                                           " venas ",
                                                           " venae ",
@@ -127,7 +168,6 @@ VesselKind kindInText(std::string_view raw) {
                                                           "transverse sinus",
                                                           "sigmoid sinus",
                                                           "sinus coronarius",
-                                                          "sinus sagittalis",
                                                           "sinus transversus",
                                                           "sinus sigmoideus",
                                                           "sinus rectus",
@@ -141,13 +181,38 @@ VesselKind kindInText(std::string_view raw) {
                                                           "confluence of sinuses",
                                                           "pterygoid plexus",
                                                           "pampiniform",
-                                                          "pfortader"};
+                                                          "pfortader",
+                                                          "venos",
+                                                          "sinus sagittal",
+                                                          "sinus longitudinal",
+                                                          "sinus droit",
+                                                          "seno sagit",
+                                                          "seno retto",
+                                                          "seno recto",
+                                                          "seno transverso",
+                                                          "seno trasverso",
+                                                          " imv ",
+                                                          " sss ",
+                                                          " gsv ",
+                                                          " ssv "};
   static constexpr std::array<std::string_view, 2> kLymph{"lymph", "thoracic duct"};
-  const std::string text = spaced(raw);
   const bool artery = hasAny(text, kArtery) || saysArtery(raw), vein = hasAny(text, kVein) || saysVein(raw);
   if (hasAny(text, kLymph) || says(raw, {"リンパ", "淋巴", "림프", "лимф"})) return VesselKind::lymphatic;
   if (artery == vein) return artery ? VesselKind::other : kindOfShortForm(raw, text);
   return artery ? VesselKind::artery : VesselKind::vein;
+}
+
+// What a vessel runs beside or leaves tells its kind where nothing else does: "V. comitans arteriae
+// brachialis" is a vein, "Ramus arteriae femoralis" an artery.
+VesselKind kindInText(std::string_view raw) {
+  const std::string text = withInitials(raw);
+  std::string own = text;
+  for (const std::string_view of : {" arteriae ", " venae "})
+    if (const std::size_t at = own.find(of, 1); at != own.npos && !own.substr(0, at).ends_with(" et"))
+      own.erase(at, of.size() - 1);
+  if (own.size() < text.size())
+    if (const VesselKind kind = kindInWords(raw, own); kind != VesselKind::other) return kind;
+  return kindInWords(raw, text);
 }
 
 // The great vessels, whose names do not say it in every language.
@@ -186,7 +251,8 @@ VesselKind kindByNumber(std::string_view raw) {
 
 // Of a vein's names.
 bool namesPortal(std::string_view text) {
-  static constexpr std::array<std::string_view, 3> kPortal{" portal ", " portae ", "pfortader"};
+  static constexpr std::array<std::string_view, 5> kPortal{" portal ", " portae ", "pfortader", " porta ",
+                                                           " porte "};
   return hasAny(spaced(text), kPortal) || saysPortal(text);
 }
 
@@ -231,31 +297,51 @@ VesselKind kindOf(const MeshElement& element, std::string_view fileName) {
 }
 
 bool namesNoVessel(const MeshElement& element, std::string_view fileName) {
-  // What segmentations of whole bodies name: organs, bones, muscles, and what is found or put in vessels.
-  // Whole words where vessels are called after them: vertebral, bronchial, ovarian, cystic, inferior thyroid.
-  static constexpr std::array<std::string_view, 80> kOther{
-      " kidney ",      " kidneys ",      " liver ",         " spleen ",     " stomach ",    " pancreas ",
-      " gallbladder ", " gall ",         " bladder ",       " esophagus ",  " oesophagus ", " trachea ",
-      " bronchus ",    " bronchi ",      " thyroid gland ", " bowel ",      " duodenum ",   " colon ",
-      " intestine ",   " intestines ",   " rectum ",        " prostate ",   " uterus ",     " ovary ",
-      " ovaries ",     " testis ",       " brain ",         " cerebrum ",   " cerebellum ", " brainstem ",
-      " heart ",       " atrium ",       " ventricle ",     " myocardium ", " lung ",       " lungs ",
-      " pleura ",      " diaphragm ",    " muscle",         " gluteus ",    " iliopsoas ",  " autochthon ",
-      " skin ",        " fat ",          " bone",           " skull ",      " vertebra ",   " vertebrae ",
-      " rib ",         " ribs ",         " sternum ",       " sacrum ",     " femur ",      " tibia ",
-      " fibula ",      " humerus ",      " ulna ",          " scapula ",    " clavicle ",   " clavicula ",
-      " pelvis ",      " hip ",          " cartilage",      " tooth ",      " teeth ",      " disc ",
-      " spinal cord ", " nerve",         " eye ",           " eyes ",       " tumor",       " tumour",
-      " cyst ",        " cysts ",        " lesion",         " calcif",      " thromb",      " stent ",
-      " catheter ",    " adrenal gland "};
+  // What segmentations of whole bodies name: organs, bones, muscles, and what is found or put in vessels;
+  // then the first of these in Latin, German, French, Spanish, Portuguese and Italian. Whole words where
+  // vessels are called after them: vertebral, bronchial, ovarian, cystic, inferior thyroid.
+  static constexpr std::array<std::string_view, 152> kOther{
+      " kidney ",      " kidneys ",       " liver ",         " spleen ",     " stomach ",     " pancreas ",
+      " gallbladder ", " gall ",          " bladder ",       " esophagus ",  " oesophagus ",  " trachea ",
+      " bronchus ",    " bronchi ",       " thyroid gland ", " bowel ",      " duodenum ",    " colon ",
+      " intestine ",   " intestines ",    " rectum ",        " prostate ",   " uterus ",      " ovary ",
+      " ovaries ",     " testis ",        " brain ",         " cerebrum ",   " cerebellum ",  " brainstem ",
+      " heart ",       " atrium ",        " ventricle ",     " myocardium ", " lung ",        " lungs ",
+      " pleura ",      " diaphragm ",     " muscle",         " gluteus ",    " iliopsoas ",   " autochthon ",
+      " skin ",        " fat ",           " bone",           " skull ",      " vertebra ",    " vertebrae ",
+      " rib ",         " ribs ",          " sternum ",       " sacrum ",     " femur ",       " tibia ",
+      " fibula ",      " humerus ",       " ulna ",          " scapula ",    " clavicle ",    " clavicula ",
+      " pelvis ",      " hip ",           " cartilage",      " tooth ",      " teeth ",       " disc ",
+      " spinal cord ", " nerve",          " eye ",           " eyes ",       " tumor",        " tumour",
+      " cyst ",        " cysts ",         " lesion",         " calcif",      " thromb",       " stent ",
+      " catheter ",    " adrenal gland ", " hepar ",         " ren ",        " renes ",       " lien ",
+      " splen ",       " pulmo ",         " pulmones ",      " gaster ",     " ventriculus ", " vesica ",
+      " encephalon ",  " costa ",         " costae ",        " os ",         " ossa ",        " cranium ",
+      " musculus ",    " musculi ",       " nervus ",        " nervi ",      " glandula ",    " ligamentum ",
+      " cutis ",       " leber ",         " niere ",         " nieren ",     " milz ",        " herz ",
+      " lunge ",       " lungen ",        " knochen ",       " gehirn ",     " magen ",       " darm ",
+      " muskel ",      " rippe ",         " wirbel ",        " schadel ",    " becken ",      " foie ",
+      " rein ",        " reins ",         " ceur ",          " coeur ",      " poumon ",      " poumons ",
+      " cerveau ",     " estomac ",       " peau ",          " higado ",     " rinon ",       " rinones ",
+      " bazo ",        " corazon ",       " pulmon ",        " hueso ",      " huesos ",      " cerebro ",
+      " piel ",        " figado ",        " coracao ",       " pulmao ",     " osso ",        " fegato ",
+      " rene ",        " reni ",          " milza ",         " cuore ",      " polmone ",     " polmoni ",
+      " cervello ",    " ureter"};
   // "Liver vessels", "branch to the stomach".
-  static constexpr std::array<std::string_view, 13> kVessel{
-      " vessel", " vasc",   " branch", " trunk ",   " plexus",      " sinus",    " anast",
-      " perfor", " arcade", " lumen",  " capillar", " circumflex ", " marginal "};
+  static constexpr std::array<std::string_view, 20> kVessel{
+      " vessel",   " vasc",   " branch", " trunk ",   " plexus",      " sinus",     " anast",
+      " perfor",   " arcade", " lumen",  " capillar", " circumflex ", " marginal ", " gefa",
+      " vaisseau", " vaso ",  " vasos ", " vasi ",    " vas ",        " vasa "};
   const std::string text = spaced(element.name);
+  const std::string_view form = shortForm(element.name, text);  // M. biceps, N. vagus
+  const bool other = hasAny(text, kOther) || form == "m" || form == "mm" || form == "n" || form == "nn" ||
+                     says(element.name, {"肝",    "腎",    "肾",     "脾",     "心臓",  "心脏",   "肺",
+                                         "骨",    "심장",  "신장",   "печень", "почка", "Печень", "Почка",
+                                         "селез", "Селез", "сердце", "Сердце", "кость", "Кость"});
+  const bool vessel = hasAny(text, kVessel) || says(element.name, {"血管", "脉", "脈", "혈관", "сосуд"});
   // By all texts and no colour: organs have some, too.
   const MeshElement told{element.name, element.category, element.ontologyId, {}, element.surroundings};
-  return hasAny(text, kOther) && !hasAny(text, kVessel) && kindOf(told, fileName) == VesselKind::other;
+  return other && !vessel && kindOf(told, fileName) == VesselKind::other;
 }
 
 }  // namespace vasa

@@ -33,6 +33,7 @@ Plain plainStart(std::string_view text) {
         "AAAAAAACEEEEIIIIDNOOOOO OUUUUYTsaaaaaaaceeeeiiiidnooooo ouuuuyty";
     return {kLetters[byte(1) - 0x80u], 2};
   }
+  if (byte(0) == 0xc5 && (byte(1) & 0xfeu) == 0x92) return {byte(1) == 0x92 ? 'E' : 'e', 2};  // OE: celiaque
   if ((byte(0) == 0xc2 && byte(1) == 0xb5) || (byte(0) == 0xce && byte(1) == 0xbc)) return {'u', 2};
   if (byte(0) == 0xcc || (byte(0) == 0xcd && byte(1) < 0xb0)) return {'\0', 2};  // U+0300 to U+036F
   return {' ', 1};
@@ -61,12 +62,12 @@ std::vector<std::string> nameWords(std::string_view name) {
 }
 
 NamedSide sideNamed(std::string_view name) {
-  static constexpr std::array<std::string_view, 9> kLeft{"left",   "sinist",  "links", "linke", "gauche",
-                                                         "izquie", "esquerd", "lft",   "lt"},
-      kRight{"right", "dext", "rechts", "rechte", "droit", "derech", "direit", "destr", "rt"};
+  static constexpr std::array<std::string_view, 11> kLeft{
+      "left", "sinist", "links", "linke", "gauche", "izquie", "esquerd", "lft", "lt", "sin", "sx"},
+      kRight{"right", "dext", "rechts", "rechte", "droit", "derech", "direit", "destr", "rt", "dex", "dx"};
   bool left = name.find("左") != name.npos, right = name.find("右") != name.npos;
   std::vector<std::string> words = nameWords(name);
-  // "lft", "lt" and "rt" are words, the others begin some.
+  // Those of up to three letters are words, the others begin some.
   const auto begins = [&](const std::string& word, const auto& signs) {
     return std::ranges::any_of(signs, [&](std::string_view sign) {
       return sign.size() > 3 ? word.starts_with(sign) : word == sign;

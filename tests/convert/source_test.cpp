@@ -88,6 +88,20 @@ TEST_CASE("names in other alphabets, and radiologists' short forms, tell the kin
     CHECK_MESSAGE(kindOf(named(neither), "x") == VesselKind::other, std::string(neither));
 }
 
+TEST_CASE("what a vessel runs beside or leaves tells its kind only where nothing else does") {
+  const auto kind = [](const char* name) { return kindOf(named(name), "scan"); };
+  for (const char* name : {"V. comitans arteriae brachialis", "V. jug. int. dext.", "veine porte", "LIJV",
+                           "sinus sagittal supérieur", "Tronc veineux brachio-céphalique"})
+    CHECK_MESSAGE(sameFamily(kind(name), VesselKind::vein), name);
+  for (const char* name : {"Ramus arteriae femoralis", "Arteriae digitales", "LICA", "RMCA", "PICA", "ACoA",
+                           "Tr. coeliacus", "tronc cœliaque", "tronco braquiocefálico",
+                           "Ramus interventricularis anterior", "чревный ствол", "плечеголовной ствол", "腹腔干"})
+    CHECK_MESSAGE(kind(name) == VesselKind::artery, name);
+  CHECK(kind("Arteriae et venae renales") == VesselKind::other);
+  CHECK(kind("veine porte") == VesselKind::portalVein);
+  CHECK(kind("vena porta") == VesselKind::portalVein);
+}
+
 TEST_CASE("an organ among the vessels of one mesh goes with none of them") {
   MeshElement element = named("Vasculature");
   const std::vector<vec3> corners{vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)};
@@ -142,6 +156,13 @@ TEST_CASE("organs, bones and findings are known by their names, where nothing sa
        {"Aorta", "renal artery to kidney", "liver vessels", "stomach branch", "portal", "pulmonary_vein",
         "hepatic", "Mesh.001", "vertebral_left", "superior thyroid", "R_ovarian", "bronchial", "cystic",
         "left atrial", "hip_circumflex", "lung_vasc", "kidney capillaries"})
+    CHECK_MESSAGE(!namesNoVessel(named(name), "scan"), name);
+  for (const char* name :
+       {"Hepar", "Ren sinister", "Leber", "Niere links", "foie", "cœur", "hígado", "fegato", "rinón", "肝臓",
+        "左肾", "печень", "M. biceps brachii", "N. vagus", "Os ilium"})
+    CHECK_MESSAGE(namesNoVessel(named(name), "scan"), name);
+  for (const char* name : {"A. hepatica", "Gefäße Leber", "vaisseaux du foie", "vasos del hígado", "肝血管",
+                           "肺动脉", "M1", "m.001", "n_2", "M.Schmidt"})
     CHECK_MESSAGE(!namesNoVessel(named(name), "scan"), name);
   CHECK(!namesNoVessel(named("stomach"), "bp3d_arteries"));
   CHECK(!namesNoVessel(named("stomach", "vein"), "scan"));

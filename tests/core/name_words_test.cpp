@@ -32,6 +32,7 @@ TEST_CASE("letters lose their accents, composed or followed by them") {
   CHECK(words("Durchmesser in \xc2\xb5m") == "durchmesser in um");
   CHECK(words("\xce\xbcm") == "um");
   CHECK(words("a×b÷c") == "a b c");
+  CHECK(words("tronc cœliaque, Œsophage") == "tronc celiaque esophage");
 }
 
 TEST_CASE("other alphabets, and UTF-8 that is cut off, only divide words") {
@@ -45,14 +46,16 @@ TEST_CASE("other alphabets, and UTF-8 that is cut off, only divide words") {
 TEST_CASE("names tell the side in several languages, and by a letter at their end") {
   using vasa::NamedSide;
   using vasa::sideNamed;
-  for (const char* name : {"Left femoral artery", "femoral.l", "Femoral.L.001", "ICA_L",
-                           "A. femoralis sinistra", "Arteria links", "artère fémorale gauche",
-                           "arteria femoral izquierda", "左総頸動脈", "Lt subclavian"})
-    CHECK_MESSAGE(sideNamed(name) == NamedSide::left, std::string(name));
-  for (const char* name : {"RightFemoral", "femoral vv.r", "V. femoralis dextra", "artère rénale droite",
-                           "arteria renal derecha", "右内頸静脈", "rt renal vein"})
-    CHECK_MESSAGE(sideNamed(name) == NamedSide::right, std::string(name));
   for (const char* name :
-       {"aorta", "L2 lumbar artery", "left branch of right hepatic artery", "cleft", "upright", "", "r2d2"})
+       {"Left femoral artery", "femoral.l", "Femoral.L.001", "ICA_L", "A. femoralis sinistra",
+        "Arteria links", "artère fémorale gauche", "arteria femoral izquierda", "左総頸動脈", "Lt subclavian",
+        "a. carotis int. sin.", "carotide sx"})
+    CHECK_MESSAGE(sideNamed(name) == NamedSide::left, std::string(name));
+  for (const char* name :
+       {"RightFemoral", "femoral vv.r", "V. femoralis dextra", "artère rénale droite",
+        "arteria renal derecha", "右内頸静脈", "rt renal vein", "V. jug. int. dext.", "carotide dx"})
+    CHECK_MESSAGE(sideNamed(name) == NamedSide::right, std::string(name));
+  for (const char* name : {"aorta", "L2 lumbar artery", "left branch of right hepatic artery", "cleft",
+                           "upright", "", "r2d2", "sinus rectus"})
     CHECK_MESSAGE(sideNamed(name) == NamedSide::none, std::string(name));
 }
