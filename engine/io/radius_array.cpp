@@ -20,10 +20,10 @@ struct Meaning {
   RadiusChoice choice;
 };
 // Halves of what is measured across, in the languages that write Latin letters.
-constexpr std::array<std::string_view, 7> kRadius{"radius", "radii",  "rayon",     "rayons",
-                                                  "radio",  "raggio", "halbmesser"};
-constexpr std::array<std::string_view, 5> kDiameter{"diameter", "diameters", "diametre", "diametro",
-                                                    "durchmesser"};
+constexpr std::array<std::string_view, 8> kRadius{"radius", "radii",  "rayon",      "rayons",
+                                                  "radio",  "raggio", "halbmesser", "misr"};
+constexpr std::array<std::string_view, 6> kDiameter{"diameter", "diameters",   "diametre",
+                                                    "diametro", "durchmesser", "diam"};
 // What has a radius too, or bends.
 constexpr std::array<std::string_view, 3> kOther{"curv", "bend", "torsion"};
 // How sure radii are.

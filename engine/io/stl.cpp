@@ -72,7 +72,10 @@ std::uint32_t littleEndian(const std::byte* bytes) {
 
 Result<std::vector<MeshElement>> readBinary(const std::string& file, const std::string& name,
                                             std::span<const std::byte> bytes, const ImportFrame& frame) {
-  const std::uint64_t count = littleEndian(bytes.data() + 80);
+  std::uint64_t count = littleEndian(bytes.data() + 80);
+  // Programs that write as they go cannot go back to say how many there were.
+  if (const std::size_t rest = bytes.size() - kHeaderBytes; count == 0 && rest % kFacetBytes == 0)
+    count = rest / kFacetBytes;
   if (bytes.size() < kHeaderBytes + count * kFacetBytes)
     return badInput(file + ": the file is cut short: it promises " + std::to_string(count) +
                     " triangles and holds " + std::to_string((bytes.size() - kHeaderBytes) / kFacetBytes) +

@@ -111,6 +111,9 @@ TEST_CASE("STL of others: words in capitals; binary with bytes behind its triang
   REQUIRE(longer.ok());
   CHECK(longer->front().mesh.triangles.size() == 1);
   CHECK(contains(file.fault(bytes.substr(0, bytes.size() - 9)), "cut short"));
+  const auto unnumbered = file.read(binary(kTwo, 0));  // of a program that wrote as it went
+  REQUIRE(unnumbered.ok());
+  CHECK(unnumbered->front().mesh.triangles.size() == 2);
 }
 
 TEST_CASE("a binary STL that begins with the word solid is read as binary") {

@@ -64,8 +64,8 @@ TEST_CASE("VTP radii under other names, of lines, and diameters") {
   const auto named = [](const std::string& name, const std::string& content) {
     return "<DataArray type=\"Float64\" Name=\"" + name + "\" format=\"ascii\">" + content + "</DataArray>";
   };
-  for (const char* name : {"Radius", "RADIUS", "radii", "r", "vessel_radius", "EdgeRadius", "lumenradius",
-                           "Rayon", "raggio", "Radio"})
+  for (const char* name : {"Radius", "RADIUS", "radii", "r", "MISR", "vessel_radius", "EdgeRadius",
+                           "lumenradius", "Rayon", "raggio", "Radio"})
     expectRead(file(kPoints, named(name, "1 2 3"), kLine));
   for (const char* name :
        {"Diameter", "diameters", "MeanDiameter", "Diam\xc3\xa8tre", "moyen_diame\xcc\x80tre", "Durchmesser"})
