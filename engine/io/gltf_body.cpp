@@ -192,6 +192,31 @@ void tellNamesApart(Skeleton& skeleton) {
 }
 
 // What the file leaves open of where the body is at rest, and what of it is not seen.
+// Whether one side's arm and leg have next to no skin, and the other side's have.
+bool isHalf(const Body& body) {
+  constexpr double kNextToNone = 0.05;
+  constexpr std::array<std::string_view, 4> kLimbs{"leftUpperArm", "rightUpperArm", "leftUpperLeg",
+                                                   "rightUpperLeg"};
+  const Rig rig = rigOf(body.skeleton);
+  std::vector<std::size_t> limbs;  // of each joint, kLimbs.size(): none
+  for (std::size_t j = 0; j < rig.names.size(); ++j) {
+    const auto own = std::size_t(std::ranges::find(kLimbs, rig.parts.of[j]) - kLimbs.begin());
+    limbs.push_back(own < kLimbs.size() || rig.parents[j] == kNone ? own : limbs[rig.parents[j]]);
+  }
+  std::array<double, kLimbs.size() + 1> corners{};
+  for (const SkinnedMesh& mesh : body.meshes)
+    for (const uvec3& t : mesh.mesh.triangles)
+      for (int k = 0; k < 3; ++k) {
+        const SkinInfluence& influence = mesh.influences[t[k]];
+        ++corners[limbs[body.carrier(influence.joints[influence.heaviest()])]];
+      }
+  const auto lacks = [&](std::size_t side) {
+    return corners[side] < kNextToNone * corners[1 - side] &&
+           corners[2 + side] < kNextToNone * corners[3 - side];
+  };
+  return lacks(0) || lacks(1);
+}
+
 void tellWhatIsOpen(const Asset& asset, const BodySkeleton& joints, const Body& body) {
   const auto& model = asset.model;
   if (std::ranges::any_of(model.nodes, [&](const Model::Node& node) {
@@ -216,8 +241,12 @@ void tellWhatIsOpen(const Asset& asset, const BodySkeleton& joints, const Body& 
   if (sidesSwapped(rigOf(body.skeleton)))
     logWarning(asset.name +
                ": its feet point backwards for what its joints call left and right: sides seem swapped, and "
-               "motions, which go by names, turn it around; name them as the person sees them, or give a "
-               "--joint-map");
+               "motions, which go by names where no --joint-map says otherwise, turn it around; name them as "
+               "the person sees them");
+  if (isHalf(body))
+    logWarning(asset.name +
+               ": half a body: one side's arm and leg have no skin, and vessels there lie in the open; apply "
+               "its mirror (Blender: export with Apply Modifiers) and export it again");
   const bool hasMesh =
       std::ranges::any_of(model.nodes, [](const Model::Node& node) { return node.mesh >= 0; });
   if (hasMesh && body.meshes.empty())
@@ -294,11 +323,22 @@ bool holdsBody(const Asset& asset) {
   }
 }
 
+// Whether nodes bear the names of a person's limbs.
+bool namesAPerson(const Model& model) {
+  std::vector<std::string> names;
+  for (const auto& node : model.nodes) names.push_back(node.name);
+  return humanoidKeys(humanoidNames(names).of) > kHumanoidKeys / 2;
+}
+
 Body bodyOf(const Asset& asset) {
-  if (!holdsBody(asset))
+  if (!holdsBody(asset)) {
+    // Rigid pieces of a person, but for what its skeleton says is wrong with them.
+    if (asset.model.skins.empty() && namesAPerson(asset.model))
+      buildSkeleton(asset, resolveNodes(asset.model));
     breaks("/skins", "a body needs a skeleton, and the file has no skin",
            "bind its meshes to an armature (Blender: Parent > Armature Deform) and export both; vessels are "
            "read by vasa convert, and the skin of a scan without a skeleton by vasa fit --from");
+  }
   NodeTree tree = resolveNodes(asset.model);
   BodySkeleton joints = buildSkeleton(asset, tree);
   if (const float unit = likelyUnitOf(asset, joints.skeleton); unit != 1) {

@@ -146,6 +146,12 @@ std::string personGlb(const PersonFile& odd) {
     joint.inverseBind[3] = vec4(odd.unitsAMetre * vec3(joint.inverseBind[3]), 1);
   }
   for (vec3& p : body.meshes[0].mesh.positions) p *= odd.unitsAMetre;
+  if (odd.half) {
+    TriangleMesh& skin = body.meshes[0].mesh;
+    std::erase_if(skin.triangles, [&](const uvec3& t) {
+      return std::min({skin.positions[t.x].x, skin.positions[t.y].x, skin.positions[t.z].x}) < -1e-4f;
+    });
+  }
   const auto& joints = body.skeleton.joints;
   const auto still = std::uint8_t(joints.size());  // the joint that nothing moves, if there is one
   GltfBuilder file;

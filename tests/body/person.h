@@ -27,6 +27,7 @@ struct PersonFile {
   bool stuck = false;  ///< all of the skin is bound to a joint that no clip moves, beside the hips
   float unitsAMetre = 1;
   bool jumps = false;  ///< the nodes are saved in the middle of a jump, arms raised
+  bool half = false;   ///< the skin's left half alone: a mirror that was not applied
 };
 
 /// Written as a .glb, with a clip "walk" of two seconds in which the hips go a metre forward and the chest

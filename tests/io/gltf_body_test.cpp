@@ -410,6 +410,12 @@ TEST_CASE("rigid pieces that hang on one another as a person's limbs are a body;
     std::size_t vertices = 0;
     for (const SkinnedMesh& mesh : body->meshes) vertices += mesh.mesh.positions.size();
     CHECK(vertices == 3 * pieces.size());
+    file.document["nodes"][4].erase("translation");
+    file.document["nodes"][4]["matrix"] = {1, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0.3, 0, 0, 1};
+    const auto sheared = readBody(writeBytes(folder.path() / "sheared.glb", file.glb()));
+    REQUIRE(!sheared.ok());
+    CHECK(sheared.error().message.find("/nodes/4/matrix: the matrix of a joint must be") !=
+          std::string::npos);
   }
 }
 
