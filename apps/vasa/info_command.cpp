@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 
@@ -189,7 +190,7 @@ void addExtent(Report& report, const Vessels& vessels, const std::filesystem::pa
 }
 
 Result<Report> surfaceReport(const std::filesystem::path& file) {
-  const auto sources = readSurfaces(file);
+  auto sources = readSurfaces(file);
   if (!sources) return sources.error();
   Report report{{"kind", "surfaces"}, {"elements", sources->size()}};
   std::size_t triangles = 0;
@@ -202,6 +203,14 @@ Result<Report> surfaceReport(const std::filesystem::path& file) {
   }
   report["triangles"] = triangles;
   addExtent(report, *sources, file);
+  const auto unit = report["metres_a_unit"].get<float>();
+  for (SourceElement& source : *sources)
+    for (vec3& p : source.element.mesh.positions) p *= unit;
+  std::vector<std::string> names;
+  for (const SourceElement& source : *sources) names.push_back(source.element.name);
+  const std::vector<std::string> left = leaveOutNoVessels(*sources);
+  for (std::size_t e = 0; e < names.size(); ++e)
+    if (std::ranges::find(left, names[e]) != left.end()) list[e]["left_out"] = true;
   report["element"] = std::move(list);
   return report;
 }
@@ -419,7 +428,7 @@ void addInfo(CLI::App& app, Command& command) {
       "Examples:\n"
       "  vasa info body.vasa --json\n"
       "  vasa info body.glb --joints\n"
-      "  vasa info arteries.obj   (what vasa convert would read: elements, kinds, the likely unit)\n"
+      "  vasa info arteries.obj   (what vasa convert would read: elements, kinds, the likely unit, what is left out)\n"
       "  vasa info walk.bvh   (what a motion file holds, and how its joints are understood)\n"
       "  vasa info            (the built-in human)\n"
       "  vasa info --vessels  (a table: sizes, stenoses, aneurysms, how they wind)\n"

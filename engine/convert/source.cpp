@@ -5,6 +5,8 @@
 #include <cctype>
 #include <numeric>
 
+#include "convert/duplicates.h"
+#include "convert/report.h"
 #include "mesh/components.h"
 
 namespace vasa {
@@ -133,6 +135,15 @@ std::vector<SourceElement> describeElements(std::vector<MeshElement> elements, s
 
 std::vector<std::string> leaveOutNoVessels(std::vector<SourceElement>& sources) {
   std::vector<std::string> left;
+  const auto wide = [](const SourceElement& source) {
+    return roughRadius(source.element.mesh) > kWidestVessel;
+  };
+  // The skin of a body, say. Where what is named as a vessel is as wide, all are in another unit.
+  if (std::ranges::any_of(sources, [&](const SourceElement& source) {
+        return source.kind != VesselKind::other && !source.noVessel && !wide(source);
+      }))
+    for (SourceElement& source : sources)
+      source.noVessel = source.noVessel || (source.kind == VesselKind::other && wide(source));
   if (std::ranges::all_of(sources, &SourceElement::noVessel)) return left;
   for (const SourceElement& source : sources)
     if (source.noVessel) left.push_back(source.element.name);

@@ -45,7 +45,8 @@ bool sameFamily(VesselKind a, VesselKind b);
 std::vector<SourceElement> describeElements(std::vector<MeshElement> elements, std::string_view fileName);
 
 /// Takes out what is no vessel by its name, where there is something else: of a whole body that was segmented
-/// the vessels alone. @return the names of what was taken out
+/// the vessels alone; and what no name tells and is wider than any vessel, beside vessels that names tell.
+/// @return the names of what was taken out
 std::vector<std::string> leaveOutNoVessels(std::vector<SourceElement>& sources);
 
 }  // namespace vasa

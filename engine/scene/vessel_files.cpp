@@ -112,8 +112,8 @@ std::vector<std::string> leaveOutNamedOthers(std::vector<SourceElement>& sources
   std::vector<std::string> left = leaveOutNoVessels(sources);
   if (!left.empty())
     logInfo(fmt::format(
-        "left out by their names, which are those of no vessels: {} of {} elements, '{}' first; what is a vessel "
-        "needs a vessel's name",
+        "left out by their names or their width, which are those of no vessels: {} of {} elements, '{}' first; "
+        "what is a vessel needs a vessel's name, or --kind",
         left.size(), all, visible(left.front())));
   return left;
 }

@@ -8,7 +8,7 @@
 using namespace vasa;
 using namespace vasa::test;
 
-// Bodies of others, made here, through the program.
+// Bodies of others, and what lies in them, made here, through the program.
 
 TEST_CASE("half a body, whose mirror was not applied, is warned of, and a whole one is not") {
   const TemporaryFolder folder;
@@ -21,4 +21,17 @@ TEST_CASE("half a body, whose mirror was not applied, is warned of, and a whole 
         (told.err.find("half a body: one side's arm and leg have no skin") != told.err.npos) == half,
         told.err);
   }
+}
+
+TEST_CASE("info tells which elements convert would leave out") {
+  const TemporaryFolder folder;
+  const auto path = (folder.path() / "scan.obj").string();
+  std::string text;
+  for (const char* name : {"Leber", "arteria"})
+    text += std::string("o ") + name + "\nv 0 0 0\nv 0 900 0\nv 5 900 0\nv 5 0 0\nf -4 -3 -2 -1\n";
+  REQUIRE(writeFileAtomically(path, text).ok());
+  const auto told = runProgram({"info", path, "--json"}).json()["element"];
+  REQUIRE(told.size() == 2);
+  CHECK(told[0]["left_out"] == true);
+  CHECK(!told[1].contains("left_out"));
 }

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "convert/sources.h"
 #include "convert/vessel_names.h"
 
 using namespace vasa;
@@ -93,9 +94,10 @@ TEST_CASE("what a vessel runs beside or leaves tells its kind only where nothing
   for (const char* name : {"V. comitans arteriae brachialis", "V. jug. int. dext.", "veine porte", "LIJV",
                            "sinus sagittal supérieur", "Tronc veineux brachio-céphalique"})
     CHECK_MESSAGE(sameFamily(kind(name), VesselKind::vein), name);
-  for (const char* name : {"Ramus arteriae femoralis", "Arteriae digitales", "LICA", "RMCA", "PICA", "ACoA",
-                           "Tr. coeliacus", "tronc cœliaque", "tronco braquiocefálico",
-                           "Ramus interventricularis anterior", "чревный ствол", "плечеголовной ствол", "腹腔干"})
+  for (const char* name :
+       {"Ramus arteriae femoralis", "Arteriae digitales", "LICA", "RMCA", "PICA", "ACoA", "Tr. coeliacus",
+        "tronc cœliaque", "tronco braquiocefálico", "Ramus interventricularis anterior", "чревный ствол",
+        "плечеголовной ствол", "腹腔干"})
     CHECK_MESSAGE(kind(name) == VesselKind::artery, name);
   CHECK(kind("Arteriae et venae renales") == VesselKind::other);
   CHECK(kind("veine porte") == VesselKind::portalVein);
@@ -180,6 +182,19 @@ TEST_CASE("organs, bones and findings are known by their names, where nothing sa
     return out;
   };
   CHECK(left({"aorta", "liver", "left renal"}) == std::vector<std::string>{"liver"});
+  std::vector<MeshElement> wide(3);  // a body and what lies in it
+  wide[0].name = "Figure", wide[0].mesh = test::tubeBetween({0, 0, 0}, {0, 1.7f, 0}, 0.1f);
+  wide[1].name = "Arteries", wide[1].mesh = test::tubeBetween({0, 1, 0}, {0, 1.4f, 0}, 0.01f);
+  wide[2].name = "Mesh.001", wide[2].mesh = test::tubeBetween({0.05f, 1, 0}, {0.05f, 1.4f, 0}, 0.01f);
+  auto all = describeElements(wide, "scan");
+  CHECK(leaveOutNoVessels(all) == std::vector<std::string>{"Figure"});
+  for (MeshElement& element : wide)
+    for (vec3& p : element.mesh.positions) p *= 100;  // in centimetres
+  all = describeElements(wide, "scan");
+  CHECK(leaveOutNoVessels(all).empty());
+  wide[1].name = "Mesh";
+  all = describeElements(wide, "scan");
+  CHECK(leaveOutNoVessels(all).empty());
   CHECK(left({"liver", "brain"}).empty());  // somebody's vessels of these, as the files are called
 }
 
