@@ -48,8 +48,13 @@ const SkinnedMesh* skinOf(const Body& body) {
   for (const SkinnedMesh& mesh : body.meshes) {
     if (mesh.mesh.empty()) continue;
     const vec3 extent = mesh.mesh.bounds().extent();
-    const std::pair own(roleNamed(mesh.name) == MeshRole::skin, extent.x * extent.y * extent.z);
-    if (!(own > largest) || (movesByRigidParts(mesh) && !mesh.name.starts_with("skin:"))) continue;
+    const MeshRole role = roleNamed(mesh.name);
+    const std::pair own(role == MeshRole::skin, extent.x * extent.y * extent.z);
+    // With one joint everything is rigid.
+    const bool couldBend =
+        body.skeleton.joints.size() > 1 || (role != MeshRole::skin && role != MeshRole::other);
+    const bool rigid = couldBend && movesByRigidParts(mesh);
+    if (!(own > largest) || (rigid && !mesh.name.starts_with("skin:"))) continue;
     largest = own;
     skin = &mesh;
   }

@@ -8,7 +8,7 @@
 namespace vasa {
 
 /// The mesh that envelops the body: the one that is named skin (body/skin_recognition.h), else the largest
-/// one that does not move by rigid parts; null if there is none.
+/// one that does not move by rigid parts, where there is more than one joint; null if there is none.
 const SkinnedMesh* skinOf(const Body& body);
 
 /// How the skin around a place moves: evidence for which part of the body the flesh there belongs to. Bones

@@ -128,3 +128,16 @@ TEST_CASE("of levels of detail the finest is the body, also where its materials 
   CHECK(leaveOutCoarserLevels(body) == std::vector<std::string>{"Body_LOD2", "Body_LOD1/skin"});
   CHECK(body.meshes.size() == 5);
 }
+
+TEST_CASE(
+    "with one joint, as a phantom has, everything is rigid, and the skin is what it is called or no bone") {
+  Body body = dollBody("vrm");
+  body.skeleton.joints.resize(1);
+  SkinnedMesh skull = boxMesh("skeleton", vec3(-0.2f), vec3(0.2f)),
+              figure = boxMesh("Figure", vec3(-0.1f), vec3(0.1f));
+  body.meshes = {skull};
+  CHECK(!skinOf(body));
+  body.meshes = {skull, figure};
+  recogniseSkin(body);
+  CHECK(skinOf(body) == &body.meshes[1]);
+}
