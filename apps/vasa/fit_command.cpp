@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "core/cancellation.h"
 #include "core/log.h"
+#include "core/visible.h"
 #include "io/bvh.h"
 #include "io/foreign_files.h"
 #include "io/gltf.h"
@@ -170,6 +171,17 @@ std::string asText(const Report& report) {
                             report["file_bytes"].get<std::size_t>());
 }
 
+void tellMissing(const Options& options, const CarriedNetwork& carried) {
+  if (carried.vesselsPressed.empty()) return;
+  std::string limbs;
+  for (const std::string& limb : carried.limbsMissing) limbs += (limbs.empty() ? "" : ", ") + limb;
+  logWarning(fmt::format(
+      "{}: no joint answers to these parts of {}: {}; {} vessels there, '{}' first, are pressed into what is next to "
+      "them; pressed of --json names all: take them out before (vasa edit: delete), or pair joints with --joint-map",
+      options.to, options.from, limbs, carried.vesselsPressed.size(),
+      visible(carried.vesselsPressed.front())));
+}
+
 Result<void> run(const Globals& globals, const Options& options) {
   if (auto writable = checkNetworkOutput(options.output); !writable) return writable.error();
   const auto network = readNetworkFile(options.network);
@@ -179,6 +191,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   auto carrying = carry(options, *network, *to);
   if (!carrying) return carrying.error();
   CarriedNetwork* const carried = &carrying->network;
+  tellMissing(options, *carried);
   const StrainLimitReport limited = limitStrain(*network, network->points(), carried->points);
   KinkRelaxer(*network).run(carried->points);
   checkpoint();
@@ -198,6 +211,8 @@ Result<void> run(const Globals& globals, const Options& options) {
                 {"radius_factor", carried->radiusFactor},
                 {"joints_matched", carried->jointsMatched},
                 {"joints_free", carried->jointsFree},
+                {"limbs_missing", carried->limbsMissing},
+                {"pressed", carried->vesselsPressed},
                 {"points_pushed_in", carried->pushedIn},
                 {"kinks", kinkCount(parted, parted.points())},
                 {"kinks_before", kinkCount(*network, network->points())},

@@ -144,12 +144,14 @@ class Carrier {
     auto pairs = matchedJoints(standingStill(to_), from_, map);
     if (!pairs) return pairs.error();
     match_ = std::move(pairs->source);
+    findMissing();
     releaseLonely(from_.skeleton, match_);
     releaseMisplaced(from_.skeleton, to_.skeleton, match_);
     auto pose = retargeted(standingStill(to_), from_, map);
     if (!pose) return pose.error();
     if (auto posed = poseAll(pose->clip); !posed) return posed.error();
     layDown(pose->up);
+    namePressed();
     measureSizes();
     stretchAll();
     warpToSkin();
@@ -180,6 +182,42 @@ class Carrier {
     points_.resize(rest.size());
     Deformer(binding_).run(rest, pose_, points_);
     return {};
+  }
+
+  void findMissing() {
+    const HumanoidNames parts = partsOf(from_.skeleton);
+    missing_.assign(match_.size(), false);
+    const auto look = [&](const std::string& limb, std::initializer_list<std::string> told) {
+      bool known = false;
+      std::vector<bool> own(match_.size());
+      for (std::size_t j = 0; j < match_.size(); ++j) {
+        const JointId parent = from_.skeleton.joints[j].parent;
+        if (std::ranges::find(told, parts.of[j]) != told.end()) {
+          if (match_[j] != kNone) return;
+          known = own[j] = true;
+        }
+        own[j] = own[j] || (parent.valid() && own[parent.value]);
+      }
+      if (!known) return;
+      out_.limbsMissing.push_back(limb);
+      for (std::size_t j = 0; j < own.size(); ++j) missing_[j] = missing_[j] || own[j];
+    };
+    look("head", {"neck", "head"});
+    for (const std::string side : {"left", "right"}) {
+      look(side + " arm", {side + "LowerArm", side + "Hand"});
+      look(side + " leg", {side + "LowerLeg", side + "Foot"});
+    }
+  }
+
+  void namePressed() {
+    if (out_.limbsMissing.empty()) return;
+    const std::vector<Station> stations = mainStations(binding_);
+    for (const Vessel& vessel : network_.vessels()) {
+      std::size_t count = 0;
+      for (std::uint32_t i = 0; i < vessel.pointCount; ++i)
+        count += missing_[stations[vessel.firstPoint + i].joint.value];
+      if (2 * count > vessel.pointCount) out_.vesselsPressed.push_back(vessel.name);
+    }
   }
 
   // A motion is told upright; the other body may lie at rest.
@@ -283,6 +321,7 @@ class Carrier {
   const Body &from_, &to_;
   std::string name_;
   std::vector<std::uint32_t> match_;  // of each joint of the first body
+  std::vector<bool> missing_;         // which of them belong to limbs that the other body lacks
   Binding binding_;
   Pose pose_;
   TriangleMesh skin_;

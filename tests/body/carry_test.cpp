@@ -88,6 +88,29 @@ TEST_CASE("joints of a spine that sit at other vertebrae stretch no vessel") {
   CHECK(worstAway(carried->points, network.points()) < 0.01f);
 }
 
+TEST_CASE("vessels of a limb that the other body lacks are named") {
+  const Body from = person();
+  Body to = from;
+  for (auto& joint : to.skeleton.joints)  // no part by its name, and none by shape
+    if (joint.name == "leftLowerLeg" || joint.name == "leftFoot" || joint.name == "leftToes")
+      joint.name = "prop";
+  NetworkBuilder builder;
+  for (const float side : {1.0f, -1.0f})
+    builder.addVessel({side > 0 ? "left tibial artery" : "right tibial artery"},
+                      straightVessel({0.09f * side, 0.4f, 0}, {0.09f * side, 0.1f, 0}, 0.003f, 8));
+  builder.addVessel({"aorta"}, straightVessel({0.02f, 1.0f, 0}, {0.02f, 1.3f, 0}, 0.01f, 8));
+  const auto network = builder.build(1.75f);
+  REQUIRE(network.ok());
+  const auto carried = carryNetwork(*network, from, to, "a.vasa");
+  if (!carried.ok()) FAIL(carried.error().message);
+  CHECK(carried->limbsMissing == std::vector<std::string>{"left leg"});
+  CHECK(carried->vesselsPressed == std::vector<std::string>{"left tibial artery"});
+  const auto whole = carryNetwork(*network, from, from, "a.vasa");
+  REQUIRE(whole.ok());
+  CHECK(whole->limbsMissing.empty());
+  CHECK(whole->vesselsPressed.empty());
+}
+
 TEST_CASE("a body that lies at rest, whichever way, takes vessels as one that stands") {
   const Body standing = person();
   const vec3 head(standing.skeleton.joints[standing.skeleton.find("head").value].restWorld[3]);
