@@ -164,7 +164,7 @@ TEST_CASE("organs, bones and findings are known by their names, where nothing sa
         "左肾", "печень", "M. biceps brachii", "N. vagus", "Os ilium"})
     CHECK_MESSAGE(namesNoVessel(named(name), "scan"), name);
   for (const char* name : {"A. hepatica", "Gefäße Leber", "vaisseaux du foie", "vasos del hígado", "肝血管",
-                           "肺动脉", "M1", "m.001", "n_2", "M.Schmidt"})
+                           "肺动脉", "M1", "Ren_L", "Splen", "m.001", "n_2", "M.Schmidt"})
     CHECK_MESSAGE(!namesNoVessel(named(name), "scan"), name);
   CHECK(!namesNoVessel(named("stomach"), "bp3d_arteries"));
   CHECK(!namesNoVessel(named("stomach", "vein"), "scan"));
