@@ -9,8 +9,8 @@ namespace vasa {
 /// superior, vena, cava and 2 of "Superior_VenaCava2", l and hip of "LHip", artere of "Artère". Words end at
 /// whatever is no letter or digit, between a small letter and a capital, before the last of several capitals
 /// that a small letter follows, and between letters and digits. Letters of Latin-1 lose their accents,
-/// whether these are part of them or follow as marks of their own (NFD); œ is e, the micro sign u. What UTF-8 has
-/// else divides words. O(name)
+/// whether these are part of them or follow as marks of their own (NFD); œ is e, the micro sign u. What UTF-8
+/// has else divides words. O(name)
 std::vector<std::string> nameWords(std::string_view name);
 
 /// The side of the body that a name says: by the words left and right in English, Latin, German, French,
