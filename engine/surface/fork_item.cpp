@@ -42,10 +42,13 @@ ForkItem joinItem(const VesselLine& line, const VesselLine::Join& join) {
   const float size = std::max(glm::length(in) * glm::length(out), 1e-20f);
   const float cosine = std::clamp(glm::dot(in, out) / size, -0.6f, 1.0f);
   const float bend = std::sqrt((1 - cosine) / (1 + cosine));  // tan of half the angle
+  const vec3 course = in + out;
+  const float overlap =  // of one that begins before the other ends
+      std::max(-glm::dot(vec3(after - before), course) / std::max(glm::length(course), 1e-12f), 0.0f);
   ForkItem item;
   item.radius = radius;
   item.room.centre = middle;
-  item.room.before = item.room.after = kBesideJoin * radius + join.gap / 2;
+  item.room.before = item.room.after = kBesideJoin * radius + (join.gap + overlap) / 2;
   item.room.want = item.room.before + radius * (2 + bend) + std::abs(before.w - after.w);
   item.mustLow = join.at;
   item.mustHigh = join.at + join.gap;

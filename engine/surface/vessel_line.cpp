@@ -13,13 +13,19 @@ namespace {
 
 constexpr std::uint32_t kSamplesPerSpan = 8;
 constexpr float kLongestDouble = 8;  // radii
-// Greatest cosine between two ends' outward directions that still run on.
-constexpr float kStraightest = -0.1f;
+// Ends so many radii of the thinner apart may run on: scanned parts overlap by up to 1.9 (iliac veins and
+// cava, femoral and popliteal artery). At 2.5 no more do.
+constexpr float kOneJunction = 2;
+// Share of a vessel's radius within which others begin in it. Beyond, they begin on what leaves it there.
+constexpr float kWithin = 0.9f;
+// Greatest cosine between two ends' outward directions that still run on: an arch of the aorta may end at a
+// right angle to where the ascending one does. At 0.5 ends of vessels that turn back are joined.
+constexpr float kStraightest = 0.2f;
 
 // An end of a vessel as a node sees it.
 struct Arm {
   VesselEnd end;
-  vec3 outward;
+  vec3 place, outward;
   float radius;
 };
 
@@ -38,7 +44,7 @@ Arm armOf(const Network& network, const VesselEnd& end) {
     if (glm::length(outward) > 1.5f * start.w) break;
   }
   const float length = glm::length(outward);
-  return {end, length > 0 ? outward / length : vec3(0, 0, 1), start.w};
+  return {end, vec3(start), length > 0 ? outward / length : vec3(0, 0, 1), start.w};
 }
 
 // What a left-out vessel is a double of: its parameters 0 and spans are those of `vessel`, `at[0]` and
@@ -101,7 +107,9 @@ class Joiner {
         const float cosine = glm::dot(arms[i].outward, arms[k].outward);
         if (cosine > kStraightest ||
             lines_.find(arms[i].end.vessel.value) == lines_.find(arms[k].end.vessel.value) ||
-            keptApart(arms[i].end.vessel, arms[k].end.vessel))
+            keptApart(arms[i].end.vessel, arms[k].end.vessel) ||
+            glm::distance(arms[i].place, arms[k].place) >
+                kOneJunction * std::min(arms[i].radius, arms[k].radius))
           continue;
         const float score = 1.5f * std::min(arms[i].radius, arms[k].radius) / largest - cosine;
         if (score > best) best = score, one = i, other = k;
@@ -114,6 +122,9 @@ class Joiner {
     return true;
   }
   std::uint32_t partner(std::uint32_t end) const { return partner_[end]; }
+  bool joins(VesselId vessel) const {
+    return partner_[2 * vessel.value] != kNone || partner_[2 * vessel.value + 1] != kNone;
+  }
 
  private:
   bool keptApart(VesselId a, VesselId b) const {
@@ -128,18 +139,87 @@ class Joiner {
   DisjointSets lines_;  // of vessels that run on into one another
 };
 
-// The ends that meet at a node, with the host's own end where the node is at it and that end is free.
-std::vector<VesselEnd> meetingEnds(const Network& network, const Node& node) {
-  std::vector<VesselEnd> ends(network.ends(node).begin(), network.ends(node).end());
-  if (!node.host) return ends;
-  const Vessel& host = network.vessel(node.host->vessel);
-  const auto points = network.pointsOf(host);
-  const vec3 place(evaluate(points, node.host->parameter));
-  const bool last = node.host->parameter > 0.5f * float(host.spanCount());
-  const vec4 end = last ? points.back() : points.front();
-  if ((last ? host.end : host.start).valid() || glm::distance(place, vec3(end)) > end.w) return {};
-  ends.push_back({node.host->vessel, last});
-  return ends;
+vec4 pointAt(const Network& network, const Host& host) {
+  return evaluate(network.pointsOf(network.vessel(host.vessel)), host.parameter);
+}
+
+// Nodes that are one place for the eye, and what meets there.
+struct Junction {
+  std::vector<VesselEnd> ends;
+  std::optional<Host> host;  // a vessel that begins in none of the nodes
+  bool passes = false;       // that one, to either side
+  Host trunk;                // what carries the others
+};
+
+// The end of a host that a node on it lies beside, and the node there: so near that ends of both may run on
+// into one another, or still within what the host's end leaves. kNone where that end is free.
+struct Beside {
+  VesselEnd end;
+  std::uint32_t node;
+};
+std::optional<Beside> besideEnd(const Network& network, const Node& own) {
+  const Host& host = *own.host;
+  const Vessel& vessel = network.vessel(host.vessel);
+  const auto points = network.pointsOf(vessel);
+  const bool last = host.parameter > 0.5f * float(vessel.spanCount());
+  const NodeId node = last ? vessel.end : vessel.start;
+  const vec4 tip = last ? points.back() : points.front(), place = pointAt(network, host);
+  const float way = glm::distance(vec3(place), vec3(tip));
+  if (!node.valid()) return way > tip.w ? std::nullopt : std::optional<Beside>({{host.vessel, last}, kNone});
+  float widest = 0;
+  for (const VesselEnd& end : network.ends(own))
+    widest = std::max(widest, network.points()[network.pointOf(end)].w);
+  float reach = kOneJunction * std::min(widest, place.w);
+  if (const auto& beyond = network.node(node).host)
+    reach = std::max(reach, kWithin * pointAt(network, *beyond).w);
+  if (way > reach) return std::nullopt;
+  return Beside{{host.vessel, last}, node.value};
+}
+
+std::vector<Junction> junctionsOf(const Network& network) {
+  const auto nodes = network.nodes();
+  DisjointSets sets(nodes.size());
+  std::vector<std::optional<Beside>> beside(nodes.size());
+  for (std::uint32_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i].host) beside[i] = besideEnd(network, nodes[i]);
+    if (beside[i] && beside[i]->node != kNone) sets.unite(i, beside[i]->node);
+  }
+  std::vector<Junction> junctions(nodes.size());
+  for (std::uint32_t i = 0; i < nodes.size(); ++i) {
+    Junction& junction = junctions[sets.find(i)];
+    const auto ends = network.ends(nodes[i]);
+    junction.ends.insert(junction.ends.end(), ends.begin(), ends.end());
+    if (!nodes[i].host || (beside[i] && beside[i]->node != kNone)) continue;
+    junction.host = nodes[i].host;
+    junction.passes = !beside[i];
+    if (beside[i]) junction.ends.push_back(beside[i]->end);
+  }
+  return junctions;
+}
+
+// Takes out vessels that lead from a junction to itself and lie within.
+std::vector<VesselId> takeWithin(const Network& network, Junction& junction) {
+  std::vector<VesselId> within;
+  for (const VesselEnd& end : junction.ends) {
+    const auto points = network.pointsOf(network.vessel(end.vessel));
+    if (end.last && std::ranges::count(junction.ends, VesselEnd{end.vessel, false}) > 0 &&
+        lengthOf(points) < 2 * kOneJunction * std::max(points.front().w, points.back().w))
+      within.push_back(end.vessel);
+  }
+  std::erase_if(junction.ends,
+                [&](const VesselEnd& end) { return std::ranges::count(within, end.vessel) > 0; });
+  return within;
+}
+
+// The joined ends carry the others, or what has none here, or the largest.
+Host trunkOf(const Network& network, const Joiner& joiner, const Junction& junction) {
+  const auto joined = [&](const VesselEnd& end) { return joiner.partner(key(end)) != kNone; };
+  if (junction.host && (junction.passes || std::ranges::none_of(junction.ends, joined)))
+    return *junction.host;
+  const VesselEnd carrier = *std::ranges::max_element(junction.ends, {}, [&](const VesselEnd& end) {
+    return (joined(end) ? 1e6f : 0.0f) + armOf(network, end).radius;
+  });
+  return {carrier.vessel, carrier.last ? float(network.vessel(carrier.vessel).spanCount()) : 0};
 }
 
 }  // namespace
@@ -235,14 +315,22 @@ VesselLines makeVesselLines(const Network& network, std::span<const std::array<V
   for (std::uint32_t v = 0; v < doubles.size(); ++v)  // not of one another
     if (doubles[v] && doubles[doubles[v]->vessel.value]) doubles[v].reset();
   const auto drawn = [&](const VesselEnd& end) { return !doubles[end.vessel.value]; };
-  const auto drawnOf = [&](std::vector<VesselEnd> ends) {
-    std::erase_if(ends, [&](const VesselEnd& end) { return !drawn(end); });
-    return ends;
-  };
   Joiner joiner(network, apart);
-  for (const Node& node : network.nodes()) {
-    const std::vector<VesselEnd> ends = drawnOf(meetingEnds(network, node));
-    if (ends.size() >= 2) joiner.joinBest(ends);
+  std::vector<Junction> junctions = junctionsOf(network);
+  std::vector<char> carries(network.vessels().size(), false);  // no doubles
+  for (const auto& twin : doubles)
+    if (twin) carries[twin->vessel.value] = true;
+  for (Junction& junction : junctions) {
+    std::erase_if(junction.ends, [&](const VesselEnd& end) { return !drawn(end); });
+    const std::vector<VesselId> within = takeWithin(network, junction);
+    if (junction.ends.empty()) continue;
+    if (!junction.passes && junction.ends.size() >= 2) joiner.joinBest(junction.ends);
+    junction.trunk = trunkOf(network, joiner, junction);
+    carries[junction.trunk.vessel.value] = true;
+    for (const VesselId vessel : within)
+      if (!carries[vessel.value] && drawn({junction.trunk.vessel, false}) && !joiner.joins(vessel))
+        doubles[vessel.value] =
+            Double{junction.trunk.vessel, {junction.trunk.parameter, junction.trunk.parameter}};
   }
   VesselLines result;
   std::vector<std::uint32_t> lineOf(network.vessels().size(), kNone);
@@ -274,23 +362,19 @@ VesselLines makeVesselLines(const Network& network, std::span<const std::array<V
     result.ends[line][atStart ? 0 : 1] = {LineEnd::Kind::branch, hostLine,
                                           result.lines[hostLine].wayOf(host.vessel, host.parameter)};
   };
-  for (const Node& node : network.nodes()) {
-    if (node.host) {
-      for (const VesselEnd& end : network.ends(node)) settle(end, *node.host);
-      continue;
+  for (const Junction& junction : junctions)
+    for (const VesselEnd& end : junction.ends) {
+      const Vessel& vessel = network.vessel(end.vessel);
+      const NodeId node = end.last ? vessel.end : vessel.start;
+      if (!node.valid()) continue;
+      const auto& own = network.node(node).host;
+      const Host& trunk = junction.trunk;
+      const vec4 place = pointAt(network, trunk);
+      const bool stays =
+          own && (lineOf[own->vessel.value] == lineOf[trunk.vessel.value] ||
+                  glm::distance(vec3(pointAt(network, *own)), vec3(place)) > kWithin * place.w);
+      settle(end, stays ? *own : trunk);
     }
-    const std::vector<VesselEnd> ends = drawnOf({network.ends(node).begin(), network.ends(node).end()});
-    if (ends.empty()) continue;
-    // The joined ones, or the largest, carry the others.
-    const auto rank = [&](const VesselEnd& end) {
-      return (joiner.partner(key(end)) != kNone ? 1e6f : 0.0f) + armOf(network, end).radius;
-    };
-    const VesselEnd carrier = *std::max_element(
-        ends.begin(), ends.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
-    const float u = carrier.last ? float(network.vessel(carrier.vessel).spanCount()) : 0;
-    for (const VesselEnd& end : ends)
-      if (!(end == carrier)) settle(end, {carrier.vessel, u});
-  }
   return result;
 }
 

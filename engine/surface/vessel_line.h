@@ -77,9 +77,10 @@ struct VesselLines {
 
 /// At a node without host the two ends that run on into one another best (straight, of like size) become one
 /// line, the others branches of it; an end on the side of a vessel is a branch of that vessel's line, unless
-/// it meets the vessel's free end, which it then prolongs. No line is closed. A vessel that leads from
-/// another's end to its side a few radii on is a double of that piece (scanned parts overlap): it is in no
-/// line, and what hangs on it hangs on the other.
+/// it meets the vessel's free end, which it then prolongs. What meets a vessel's side within a radius or two
+/// of its end, or where that still runs within its own host, meets where that end does: scanned parts
+/// overlap. No line is closed. A vessel that leads from another's end to its side a few radii on, or from
+/// such a place to itself, is a double: it is in no line, and what hangs on it hangs on the other.
 /// @param apart  pairs of vessels that do not become one line
 VesselLines makeVesselLines(const Network& network, std::span<const std::array<VesselId, 2>> apart = {});
 

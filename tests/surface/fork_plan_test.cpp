@@ -110,6 +110,45 @@ TEST_CASE("vessels that end in one point: in two, three, four and five") {
             .folds == 0);
 }
 
+TEST_CASE("vessels that overlap where three meet: two run on into one another, the third is a branch") {
+  NetworkBuilder builder;
+  const VesselId right =
+      builder.addVessel({"right"}, test::straightVessel(0.2f * direction(150), {0, 0, 0}, 0.006f, 4));
+  const VesselId left =
+      builder.addVessel({"left"}, test::straightVessel({0, 0, 0}, 0.2f * direction(210), 0.006f, 4));
+  builder.joinEnds({{right, true}, {left, false}});
+  builder.joinToSide(
+      {builder.addVessel({"cava"}, test::straightVessel(0.008f * direction(210), {0, 0, 0.2f}, 0.007f, 4)),
+       false},
+      {left, 4 * 0.008f / 0.2f});
+  const Outcome outcome = checkedSurface(test::built(builder));
+  CHECK(outcome.report.joins == 1);
+  CHECK(outcome.report.branches == 1);
+  CHECK(outcome.report.forked == 1);
+}
+
+TEST_CASE("two vessels that meet at a right angle run on into one another") {
+  const Outcome outcome = checkedSurface(star({{direction(180), 0.01f}, {direction(85), 0.01f}}));
+  CHECK(outcome.report.joins == 1);
+  CHECK(outcome.report.branches == 0);
+  CHECK(outcome.folds == 0);
+}
+
+TEST_CASE("what starts on a branch that is still within the trunk leaves the trunk") {
+  NetworkBuilder builder;
+  const VesselId trunk =
+      builder.addVessel({"trunk"}, test::straightVessel({0, 0, -0.2f}, {0, 0, 0.2f}, 0.01f, 4));
+  const VesselId one = builder.addVessel({"one"}, test::straightVessel({0, 0, 0}, {0.2f, 0, 0}, 0.005f, 4));
+  builder.joinToSide({one, false}, {trunk, 2});
+  builder.joinToSide(
+      {builder.addVessel({"other"}, test::straightVessel({0.007f, 0, 0}, {-0.2f, 0, 0.02f}, 0.005f, 4)),
+       false},
+      {one, 4 * 0.007f / 0.2f});
+  const ForkPlan plan = planForks(test::built(builder));
+  CHECK(plan.report.forked == 2);
+  for (const shared::ForkRecord& fork : plan.forks) CHECK(fork.vesselA == trunk.value);
+}
+
 TEST_CASE("what cannot be forked stays a closed tube of its own, and is counted") {
   NetworkBuilder builder;
   const VesselId trunk =
