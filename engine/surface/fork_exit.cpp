@@ -36,7 +36,8 @@ ForkExit findForkExit(const VesselLine& branch, bool last, const VesselLine& hos
                       float clearance, float longest) {
   const Walker walker{branch, last};
   ForkExit exit;
-  float foot = hostWay, best = 1e30f, limit = 0.98f * branch.length();
+  const float end = 0.98f * branch.length();
+  float foot = hostWay, best = 1e30f, limit = end;
   bool outside = false;
   std::vector<std::pair<float, float>> steps;  // ways along the branch and the host
   for (float from = 0; from < limit;) {
@@ -50,6 +51,7 @@ ForkExit findForkExit(const VesselLine& branch, bool last, const VesselLine& hos
       exit.foot = foot;
       outside = false;
       best = 1e30f;
+      limit = end;  // one that dips in again is followed on
     } else {
       if (!outside) limit = std::min(limit, exit.cross + 4 * point.w + 3 * near.radius);
       outside = true;

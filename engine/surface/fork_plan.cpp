@@ -15,9 +15,9 @@
 // A line's own ends are settled first (where its tube begins in the wall of its host), then the forks on it
 // are given room. A branch without room is dropped; that lengthens its own line again, so lines are gone
 // through until no branch is dropped any more. Then forks that fold are mended, and all is done again.
-// Branches are only ever dropped or tried in another manner, once each, until the best of them is settled, so
-// this ends. The first manners make the widest fillets, which look most like a vessel that opens into
-// another.
+// What was dropped may then find room after all. Branches are only ever dropped, taken in once more, or tried
+// in another manner, once each and once over, until the best of them is settled, so this ends. The first
+// manners make the widest fillets, which look most like a vessel that opens into another.
 namespace vasa {
 namespace {
 
@@ -30,6 +30,13 @@ constexpr Manner kManners[] = {
     {1.3f, 4, 0.9f}, {1.3f, 4, 0.6f},      {1.0f, 3, 0.6f},     {0.35f, 3, 0.35f}, {0.8f, 3, 0.35f},
     {1.4f, 3, 0.5f}, {0.35f, 1.5f, 0.35f}, {0.8f, 2, 0.6f},     {0.3f, 1, 0.15f},  {1.2f, 1.5f, 0.2f},
     {2.5f, 4, 0.5f}, {0.5f, 2, 0.15f},     {1.8f, 2.5f, 0.25f}, {3.5f, 5, 0.35f}};
+// Of these, ever narrower ones: what found no room is looked at again in each.
+constexpr std::uint32_t kNarrower[] = {0, 1, 2, 3, 6, 8};
+// Radii of the host by which what is taken in again moves from its place, or moves others: as far as looks
+// natural (at 2.5 no more are taken in).
+constexpr float kMostMoved = 1.5f;
+constexpr std::uint8_t kWayBeyond = 16;  // of ForkWays: a manner, and so many times beyond_
+static_assert(std::size(kManners) <= kWayBeyond);
 constexpr float kSliver = 0.1f;  // of the radius: shorter tubes go to the forks beside them
 
 enum class Fate { none, forked, hidden, tooShort, crowded, folded };
@@ -48,9 +55,11 @@ class Planner {
     old_.resize(lines_.lines.size(), true);
     for (const VesselLine& line : lines_.lines) keys_.push_back(line.key());
     trials_.resize(exits_.size());
+    readmitted_.resize(exits_.size(), false);
+    reopened_.resize(exits_.size(), false);
+    beyond_.resize(exits_.size(), 0);
     for (std::uint32_t end = 0; end < exits_.size(); ++end)
-      if (const LineEnd& lineEnd = lines_.ends[end / 2][end % 2]; lineEnd.kind == LineEnd::Kind::branch)
-        children_[lineEnd.host].push_back(end);
+      if (isBranch(end)) children_[leftBy(end).host].push_back(end);
   }
 
   ForkPlan run(ForkTrials& shapes) {
@@ -59,7 +68,7 @@ class Planner {
       giveRoom();
       emitOld();
       tryForks(shapes);
-    } while (mendFolds());
+    } while (mendFolds() || readmit());
     return gathered();
   }
 
@@ -67,9 +76,11 @@ class Planner {
     for (std::uint32_t end = 0; end < exits_.size(); ++end) {
       const std::size_t own = vesselEnd(end);
       const std::uint8_t way = own < before.of.size() ? before.of[own] : std::uint8_t(0);
-      trials_[end].manner = way == ForkWays::kTube ? 0 : way;
+      const bool tube = way == ForkWays::kTube;
+      if (!tube && way / kWayBeyond > 0) hang(end, way / kWayBeyond);
+      trials_[end].manner = tube ? 0 : way % kWayBeyond;
       findExit(end);
-      if (way == ForkWays::kTube && forked(end)) fates_[end] = Fate::folded;
+      if (tube && forked(end)) fates_[end] = Fate::folded;
     }
     giveRoom();
     emitOld();
@@ -100,9 +111,29 @@ class Planner {
     std::vector<std::optional<ForkFolds>> folds;  // of each fork; nothing before it was tried
   };
 
+  bool isBranch(std::uint32_t end) const {
+    return lines_.ends[end / 2][end % 2].kind == LineEnd::Kind::branch;
+  }
+
+  // What a branch leaves: its host, or what that one's end leaves.
+  const LineEnd& leftBy(std::uint32_t end) const {
+    const LineEnd& own = lines_.ends[end / 2][end % 2];
+    return beyond_[end] > 0 ? lines_.ends[own.host][beyond_[end] - 1u] : own;
+  }
+
+  // @param beyond  the host's end, from 1 on; 0: the host itself
+  void hang(std::uint32_t end, std::uint32_t beyond) {
+    const std::uint32_t host = lines_.ends[end / 2][end % 2].host;
+    if (!isBranch(end) || beyond > 2 || (beyond > 0 && !isBranch(2 * host + beyond - 1))) return;
+    touch(end);
+    std::erase(children_[leftBy(end).host], end);
+    beyond_[end] = std::uint8_t(beyond);
+    children_[leftBy(end).host].push_back(end);
+  }
+
   // How a branch leaves is another: that concerns its own line and its host, and no others.
   void touch(std::uint32_t end) {
-    const std::uint32_t own = end / 2, host = lines_.ends[own][end % 2].host;
+    const std::uint32_t own = end / 2, host = leftBy(end).host;
     unsettled_[own] = unsettled_[host] = old_[own] = old_[host] = true;
   }
 
@@ -111,10 +142,20 @@ class Planner {
     touch(end);
   }
 
+  // A manner without room is no better than one that folds: back to the best that had room. @return whether
+  // there is one
+  bool giveWay(std::uint32_t end) {
+    Trial& trial = trials_[end];
+    if (trial.settled || trial.least.stump) return false;
+    trial.settled = true;
+    trial.manner = trial.best;
+    findExit(end);
+    return true;
+  }
+
   void findExit(std::uint32_t end) {
-    const LineEnd& lineEnd = lines_.ends[end / 2][end % 2];
-    if (lineEnd.kind != LineEnd::Kind::branch) return;
-    exits_[end] = exitOf(end, lineEnd);
+    if (!isBranch(end)) return;
+    exits_[end] = exitOf(end, leftBy(end));
     fates_[end] = exits_[end].found ? Fate::forked : Fate::hidden;
     clearJoin(end);
     touch(end);
@@ -135,12 +176,19 @@ class Planner {
     return found->second;
   }
 
+  // Between the forks at its ends.
+  bool hasRoom(std::uint32_t line) const {
+    if (!forked(2 * line) || !forked(2 * line + 1)) return true;
+    const float room = lines_.lines[line].length() - exits_[2 * line].ring - exits_[2 * line + 1].ring;
+    return room >= kSliver * exits_[2 * line].radius;
+  }
+
   // Lines of which nothing has changed since they were settled have it.
   void giveRoom() {
     for (std::uint32_t line = 0; line < lines_.lines.size(); ++line) {
-      if (!unsettled_[line] || !forked(2 * line) || !forked(2 * line + 1)) continue;
-      const float room = lines_.lines[line].length() - exits_[2 * line].ring - exits_[2 * line + 1].ring;
-      if (room < kSliver * exits_[2 * line].radius) drop(2 * line + 1, Fate::tooShort);
+      if (!hasRoom(line)) giveWay(2 * line);
+      if (!hasRoom(line)) giveWay(2 * line + 1);
+      if (!hasRoom(line)) drop(2 * line + 1, Fate::tooShort);
     }
     for (bool dropped = true; dropped;) {
       dropped = false;
@@ -200,17 +248,28 @@ class Planner {
     count(plan.report);
     plan.ways.of.assign(2 * network_.vessels().size(), 0);
     for (std::uint32_t end = 0; end < exits_.size(); ++end)
-      if (lines_.ends[end / 2][end % 2].kind == LineEnd::Kind::branch)
-        plan.ways.of[vesselEnd(end)] = forked(end) ? std::uint8_t(trials_[end].manner) : ForkWays::kTube;
+      if (isBranch(end))
+        plan.ways.of[vesselEnd(end)] =
+            forked(end) ? std::uint8_t(kWayBeyond * beyond_[end] + trials_[end].manner) : ForkWays::kTube;
     return plan;
   }
 
   // How a branch is made, and what became of other ways to make it.
   struct Trial {
     std::uint32_t manner = 0, best = 0;
+    std::uint32_t leastTaken = ~0u;
     ForkFolds least{true, ~0u, ~0u, ~0u, ~0u, ~0u};
     bool settled = false;
   };
+
+  // Branches of a line that find no room, as its own fork takes it.
+  std::uint32_t taken(std::uint32_t end) const {
+    const VesselLine& line = lines_.lines[end / 2];
+    return std::uint32_t(std::ranges::count_if(children_[end / 2], [&](std::uint32_t child) {
+      const float foot = end % 2 ? line.length() - exits_[child].foot : exits_[child].foot;
+      return fates_[child] == Fate::crowded && foot < exits_[end].ring;
+    }));
+  }
 
   // Branches of forks that fold are made in another manner; in the best of all, where each of them folds
   // somewhere; as tubes of their own where that is at rest. @return whether anything changed
@@ -219,7 +278,7 @@ class Planner {
     for (const std::uint32_t line : emitted_)
       for (std::size_t i = 0; i < pieces_[line].forks.size(); ++i)
         for (const ForkLeaving& leaving : pieces_[line].items[i].branches)
-          if (const ForkFolds& folds = *pieces_[line].folds[i]; !folds.none())
+          if (const ForkFolds& folds = *pieces_[line].folds[i]; !folds.none() || taken(leaving.child) > 0)
             changed = tryOtherwise(leaving.child, folds) || changed;
     return changed;
   }
@@ -227,15 +286,88 @@ class Planner {
   bool tryOtherwise(std::uint32_t end, const ForkFolds& folds) {
     Trial& trial = trials_[end];
     if (trial.settled) {
-      if (folds.stump) drop(end, Fate::folded);
-      return folds.stump;
+      if (!folds.stump) return false;
+      if (std::exchange(reopened_[end], true)) {
+        drop(end, Fate::folded);
+      } else {
+        trial = {};  // once more: it has other neighbours by now
+        findExit(end);
+      }
+      return true;
     }
-    if (folds < trial.least) trial.least = folds, trial.best = trial.manner;
+    const std::uint32_t takes = taken(end);
+    if (std::tie(folds.stump, takes, folds) < std::tie(trial.least.stump, trial.leastTaken, trial.least))
+      trial.least = folds, trial.leastTaken = takes, trial.best = trial.manner;
     trial.settled = ++trial.manner == std::size(kManners);
     if (trial.settled) trial.manner = trial.best;
     findExit(end);
     if (trial.settled && trial.least.stump) fates_[end] = Fate::folded;
     return true;
+  }
+
+  // What was dropped may find room by now, or in a narrower manner: others were dropped later, or are made
+  // otherwise. Or beyond its host. Once each, the thickest first. @return whether any was taken in
+  bool readmit() {
+    std::vector<std::uint32_t> ends;
+    for (std::uint32_t end = 0; end < fates_.size(); ++end)
+      if (fates_[end] > Fate::hidden && !std::exchange(readmitted_[end], true)) ends.push_back(end);
+    std::ranges::stable_sort(ends, std::greater{}, [&](std::uint32_t end) { return exits_[end].radius; });
+    return std::ranges::count_if(ends, [&](std::uint32_t end) { return readmit(end); }) > 0;
+  }
+
+  bool readmit(std::uint32_t end) {
+    const Fate fate = fates_[end];
+    if (takeIn(end)) return true;
+    for (const std::uint32_t beyond : {1, 2}) {
+      if (beyond_[end] > 0 || !startsBeside(end, beyond - 1)) continue;
+      hang(end, beyond);
+      if (takeIn(end)) return true;
+      hang(end, 0);
+    }
+    findExit(end);
+    fates_[end] = fate;
+    return false;
+  }
+
+  bool takeIn(std::uint32_t end) {
+    for (const std::uint32_t manner : kNarrower) {
+      trials_[end] = {};
+      trials_[end].manner = manner;
+      findExit(end);
+      if (forked(end) && hasRoom(end / 2) && fits(end / 2) && fits(leftBy(end).host)) return true;
+    }
+    return false;
+  }
+
+  // Whether a branch starts where its host has not left its own host yet, within its radius of that one's
+  // wall.
+  bool startsBeside(std::uint32_t end, std::uint32_t hostEnd) const {
+    const LineEnd& own = lines_.ends[end / 2][end % 2];
+    const VesselLine &branch = lines_.lines[end / 2], &host = lines_.lines[own.host];
+    const std::uint32_t left = 2 * own.host + hostEnd;
+    if (!forked(left) || leftBy(left).host == end / 2 || leftBy(left).host == own.host) return false;
+    if ((hostEnd ? host.length() - own.hostWay : own.hostWay) > exits_[left].ring) return false;
+    const vec4 tip = branch.point(end % 2 ? branch.length() : 0);
+    const LineEnd& beyond = lines_.ends[own.host][hostEnd];
+    const VesselLine::Foot foot =
+        lines_.lines[beyond.host].nearest(vec3(tip), beyond.hostWay, exits_[left].ring + tip.w);
+    return foot.distance < foot.radius + tip.w;
+  }
+
+  // Whether all of a line's forks find room, none moved further than it was, or kMostMoved.
+  bool fits(std::uint32_t index) const {
+    const VesselLine& line = lines_.lines[index];
+    const Range range = rangeOf(index);
+    std::vector<ForkItem> items = itemsOf(index, range);
+    for (ForkItem& item : items) {
+      float most = kMostMoved * line.point(item.room.centre).w;
+      for (const ForkItem& before : items_[index])
+        if (before.branch() && item.branch() && before.branches[0].child == item.branches[0].child)
+          most = std::max(most, std::abs(before.room.shift));
+      item.shiftLimit = std::min(item.shiftLimit, most);
+    }
+    std::vector<ForkRoom> rooms;
+    return !withoutRoom(items, rooms, range, 0);
   }
 
   // 2 * vessel, and one more for its last end.
@@ -284,9 +416,12 @@ class Planner {
     const VesselLine& line = lines_.lines[index];
     std::vector<ForkItem> branches;
     for (const std::uint32_t end : children_[index])
-      if (forked(end))
-        branches.push_back(
+      if (forked(end)) {
+        ForkItem& item = branches.emplace_back(
             branchItem(line, lines_.lines[end / 2], end, exits_[end], kManners[trials_[end].manner].fillet));
+        if (readmitted_[end])
+          item.shiftLimit = std::min(item.shiftLimit, kMostMoved * line.point(item.room.centre).w);
+      }
     return arrangedItems(line, std::move(branches), range.low, range.high);
   }
 
@@ -297,37 +432,40 @@ class Planner {
     items = itemsOf(index, range);
     if (items.empty()) return true;
     std::vector<ForkRoom> rooms;
-    for (const ForkItem& item : items) rooms.push_back(item.room);
     const float sliver = kSliver * lines_.lines[index].point(range.low).w;
-    ForkItem* worst = nullptr;
-    if (!shareRoom(rooms, range.low, range.high, sliver)) {
-      for (ForkItem& item : items)
-        if (item.branch() && (!worst || item.thinnest().radius < worst->thinnest().radius)) worst = &item;
-    } else {
-      float excess = 1;
-      for (std::size_t i = 0; i < items.size(); ++i) {
-        const bool torn = items[i].mustLow <= rooms[i].low || items[i].mustHigh >= rooms[i].high;
-        // A join that a fork pushes off its place: the nearest branch gives way.
-        if (torn && !items[i].branch())
-          worst = nearestBranch(items, i);
-        else if (torn)
-          worst = &items[i];
-        if (torn) break;
-        const float share = items[i].branch() ? std::abs(rooms[i].shift) / items[i].shiftLimit : 0;
-        if (share > excess) excess = share, worst = &items[i];
-      }
-    }
-    if (worst) {
-      drop(worst->thinnest().child, Fate::crowded);
+    if (const ForkItem* const item = withoutRoom(items, rooms, range, sliver)) {
+      const std::uint32_t end = item->thinnest().child;
+      if (!giveWay(end)) drop(end, Fate::crowded);
       return false;
     }
     for (std::size_t i = 0; i < items.size(); ++i) items[i].room = rooms[i];
     return true;
   }
 
-  static ForkItem* nearestBranch(std::vector<ForkItem>& items, std::size_t to) {
-    ForkItem* nearest = nullptr;
-    for (ForkItem& item : items)
+  // Gives them room. @return the one that is in the way most, if any is
+  static const ForkItem* withoutRoom(const std::vector<ForkItem>& items, std::vector<ForkRoom>& rooms,
+                                     Range range, float sliver) {
+    for (const ForkItem& item : items) rooms.push_back(item.room);
+    const ForkItem* worst = nullptr;
+    if (!shareRoom(rooms, range.low, range.high, sliver)) {
+      for (const ForkItem& item : items)
+        if (item.branch() && (!worst || item.thinnest().radius < worst->thinnest().radius)) worst = &item;
+      return worst;
+    }
+    float excess = 1;
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      // A join that a fork pushes off its place: the nearest branch gives way.
+      if (items[i].mustLow <= rooms[i].low || items[i].mustHigh >= rooms[i].high)
+        return items[i].branch() ? &items[i] : nearestBranch(items, i);
+      const float share = items[i].branch() ? std::abs(rooms[i].shift) / items[i].shiftLimit : 0;
+      if (share > excess) excess = share, worst = &items[i];
+    }
+    return worst;
+  }
+
+  static const ForkItem* nearestBranch(const std::vector<ForkItem>& items, std::size_t to) {
+    const ForkItem* nearest = nullptr;
+    for (const ForkItem& item : items)
       if (item.branch() && (!nearest || std::abs(item.room.centre - items[to].room.centre) <
                                             std::abs(nearest->room.centre - items[to].room.centre)))
         nearest = &item;
@@ -407,6 +545,8 @@ class Planner {
   std::vector<ForkExit> exits_;      // 2 * line + end
   std::vector<Fate> fates_;
   std::vector<Trial> trials_;
+  std::vector<char> readmitted_, reopened_;
+  std::vector<std::uint8_t> beyond_;                  // of each end: as hang() has it
   std::vector<std::vector<std::uint32_t>> children_;  // branches on each line
   std::vector<std::vector<ForkItem>> items_;
   std::vector<char> unsettled_, old_;  // lines of which something is another since they were settled, emitted

@@ -149,6 +149,22 @@ TEST_CASE("what starts on a branch that is still within the trunk leaves the tru
   for (const shared::ForkRecord& fork : plan.forks) CHECK(fork.vesselA == trunk.value);
 }
 
+TEST_CASE("where two wide forks find no room one is made narrower") {
+  NetworkBuilder builder;
+  const float length = 0.052f;
+  const VesselId trunk =
+      builder.addVessel({"trunk"}, test::straightVessel({0, 0, 0}, {0, 0, length}, 0.01f, 4));
+  for (const float share : {0.3f, 0.7f})
+    builder.joinToSide(
+        {builder.addVessel(
+             {"branch"}, test::straightVessel({0, 0, share * length}, {0.2f, 0, share * length}, 0.006f, 4)),
+         false},
+        {trunk, 4 * share});
+  const Outcome outcome = checkedSurface(test::built(builder));
+  CHECK(outcome.report.forked == 2);
+  CHECK(outcome.folds == 0);
+}
+
 TEST_CASE("what cannot be forked stays a closed tube of its own, and is counted") {
   NetworkBuilder builder;
   const VesselId trunk =

@@ -102,7 +102,7 @@ TEST_CASE("what another cut through its quads unfolds is not smoothed, and has a
     cut += now != always;
   }
   MESSAGE(turned << " steps for " << kept << ", " << cut << " forks with a quad cut otherwise");
-  CHECK(2 * turned < kept);
+  CHECK(turned + 20 < kept);  // the rest folds either way
   CHECK(cut > 5);
 }
 
