@@ -32,9 +32,10 @@ constexpr Manner kManners[] = {
     {2.5f, 4, 0.5f}, {0.5f, 2, 0.15f},     {1.8f, 2.5f, 0.25f}, {3.5f, 5, 0.35f}};
 // Of these, ever narrower ones: what found no room is looked at again in each.
 constexpr std::uint32_t kNarrower[] = {0, 1, 2, 3, 6, 8};
-// Radii of the host by which what is taken in again moves from its place, or moves others: as far as looks
-// natural (at 2.5 no more are taken in).
-constexpr float kMostMoved = 1.5f;
+// Radii of the host by which what is taken in again moves from its place (at 2.5 hardly more are taken in)
+// and by which it moves others, and what it leaves to joins on either side: without that a thin branch took
+// the join of two wide veins into its own small fork, which had a crease, and bent a third aside.
+constexpr float kMostMoved = 1.5f, kMostPushed = 1, kJoinRoom = 0.5f;
 constexpr std::uint8_t kWayBeyond = 16;  // of ForkWays: a manner, and so many times beyond_
 static_assert(std::size(kManners) <= kWayBeyond);
 constexpr float kSliver = 0.1f;  // of the radius: shorter tubes go to the forks beside them
@@ -150,7 +151,7 @@ class Planner {
     trial.settled = true;
     trial.manner = trial.best;
     findExit(end);
-    return true;
+    return forked(end) && fits(end / 2) && fits(leftBy(end).host);
   }
 
   void findExit(std::uint32_t end) {
@@ -354,20 +355,35 @@ class Planner {
     return foot.distance < foot.radius + tip.w;
   }
 
-  // Whether all of a line's forks find room, none moved further than it was, or kMostMoved.
+  // Whether all of a line's forks find room, with one that is new among them: it moves by kMostMoved at most,
+  // others and joins hardly give way.
   bool fits(std::uint32_t index) const {
     const VesselLine& line = lines_.lines[index];
     const Range range = rangeOf(index);
     std::vector<ForkItem> items = itemsOf(index, range);
     for (ForkItem& item : items) {
-      float most = kMostMoved * line.point(item.room.centre).w;
+      float most = kMostMoved;
+      const float radius = line.point(item.room.centre).w;
       for (const ForkItem& before : items_[index])
         if (before.branch() && item.branch() && before.branches[0].child == item.branches[0].child)
-          most = std::max(most, std::abs(before.room.shift));
-      item.shiftLimit = std::min(item.shiftLimit, most);
+          most = std::max(kMostPushed, std::abs(before.room.shift) / radius);
+      item.shiftLimit = std::min(item.shiftLimit, most * radius);
     }
     std::vector<ForkRoom> rooms;
-    return !withoutRoom(items, rooms, range, 0);
+    if (withoutRoom(items, rooms, range, 0)) return false;
+    for (std::size_t i = 0; i < items.size(); ++i)
+      if (items[i].mustLow < 1e30f &&
+          besideJoin(items[i], rooms[i]) < kJoinRoom * line.point(items[i].mustLow).w)
+        if (std::ranges::none_of(items_[index], [&](const ForkItem& before) {
+              return before.mustLow == items[i].mustLow &&
+                     besideJoin(before, before.room) <= besideJoin(items[i], rooms[i]);
+            }))
+          return false;
+    return true;
+  }
+
+  static float besideJoin(const ForkItem& item, const ForkRoom& room) {
+    return std::min(item.mustLow - room.low, room.high - item.mustHigh);
   }
 
   // 2 * vessel, and one more for its last end.
@@ -428,9 +444,7 @@ class Planner {
   // @return false where a branch was dropped
   bool settle(std::uint32_t index) {
     const Range range = rangeOf(index);
-    std::vector<ForkItem>& items = items_[index];
-    items = itemsOf(index, range);
-    if (items.empty()) return true;
+    std::vector<ForkItem> items = itemsOf(index, range);
     std::vector<ForkRoom> rooms;
     const float sliver = kSliver * lines_.lines[index].point(range.low).w;
     if (const ForkItem* const item = withoutRoom(items, rooms, range, sliver)) {
@@ -439,6 +453,7 @@ class Planner {
       return false;
     }
     for (std::size_t i = 0; i < items.size(); ++i) items[i].room = rooms[i];
+    items_[index] = std::move(items);
     return true;
   }
 
