@@ -64,6 +64,15 @@ void take(ForkItem& branch, const ForkItem& join) {
   branch.mustHigh = std::max(branch.mustHigh, join.mustHigh);
 }
 
+const ForkItem* nearestBranch(std::span<const ForkItem> items, std::size_t to) {
+  const ForkItem* nearest = nullptr;
+  for (const ForkItem& item : items)
+    if (item.branch() && (!nearest || std::abs(item.room.centre - items[to].room.centre) <
+                                          std::abs(nearest->room.centre - items[to].room.centre)))
+      nearest = &item;
+  return nearest;
+}
+
 }  // namespace
 
 ForkItem branchItem(const VesselLine& host, const VesselLine& branch, std::uint32_t end, const ForkExit& exit,
@@ -125,6 +134,26 @@ std::vector<ForkItem> arrangedItems(const VesselLine& line, std::vector<ForkItem
   items.insert(items.end(), joins.begin(), joins.end());
   std::sort(items.begin(), items.end(), byCentre);
   return items;
+}
+
+const ForkItem* withoutRoom(std::span<const ForkItem> items, std::vector<ForkRoom>& rooms, float low,
+                            float high, float sliver) {
+  for (const ForkItem& item : items) rooms.push_back(item.room);
+  const ForkItem* worst = nullptr;
+  if (!shareRoom(rooms, low, high, sliver)) {
+    for (const ForkItem& item : items)
+      if (item.branch() && (!worst || item.thinnest().radius < worst->thinnest().radius)) worst = &item;
+    return worst;
+  }
+  float excess = 1;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    // A join that a fork pushes off its place: the nearest branch gives way.
+    if (items[i].mustLow <= rooms[i].low || items[i].mustHigh >= rooms[i].high)
+      return items[i].branch() ? &items[i] : nearestBranch(items, i);
+    const float share = items[i].branch() ? std::abs(rooms[i].shift) / items[i].shiftLimit : 0;
+    if (share > excess) excess = share, worst = &items[i];
+  }
+  return worst;
 }
 
 }  // namespace vasa

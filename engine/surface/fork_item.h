@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "surface/fork_exit.h"
@@ -43,5 +44,11 @@ ForkItem branchItem(const VesselLine& host, const VesselLine& branch, std::uint3
 /// joins between these ways, each with the branch beside it or alone.
 std::vector<ForkItem> arrangedItems(const VesselLine& line, std::vector<ForkItem> branches, float low,
                                     float high);
+
+/// Gives what is on a line room between two ways along it.
+/// @param rooms   empty; one an item on return  @param sliver  [m] shorter tubes go to the forks beside them
+/// @return the one with a branch that is in the way most; null if there is room for all
+const ForkItem* withoutRoom(std::span<const ForkItem> items, std::vector<ForkRoom>& rooms, float low,
+                            float high, float sliver);
 
 }  // namespace vasa

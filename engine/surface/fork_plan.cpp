@@ -8,8 +8,8 @@
 #include "core/hash.h"
 #include "surface/fork_item.h"
 #include "surface/fork_memory.h"
-#include "surface/fork_record.h"
 #include "surface/fork_trials.h"
+#include "surface/line_piece.h"
 #include "surface/vessel_line.h"
 
 // A line's own ends are settled first (where its tube begins in the wall of its host), then the forks on it
@@ -91,7 +91,7 @@ class Planner {
   /// Vessels whose join folds at rest in the plan of run().
   std::vector<VesselPair> bent() const {
     std::vector<VesselPair> pairs;
-    for (const Piece& piece : pieces_)
+    for (const LinePiece& piece : pieces_)
       for (std::size_t i = 0; i < piece.forks.size(); ++i)
         if (!piece.items[i].branch() && piece.folds[i]->stump)
           pairs.push_back({VesselId{piece.forks[i].vesselA}, VesselId{piece.forks[i].vesselB}});
@@ -101,15 +101,6 @@ class Planner {
  private:
   struct Range {
     float low, high;
-  };
-
-  // What a line has come to, along it. Numbers of branches count within.
-  struct Piece {
-    std::vector<TubeStretch> tubes;
-    std::vector<ForkItem> items;  // one a fork
-    std::vector<shared::ForkRecord> forks;
-    std::vector<shared::ForkBranch> branches;
-    std::vector<std::optional<ForkFolds>> folds;  // of each fork; nothing before it was tried
   };
 
   bool isBranch(std::uint32_t end) const {
@@ -211,10 +202,10 @@ class Planner {
     std::vector<shared::ForkBranch> branches;
     std::vector<std::optional<ForkFolds>*> answers;
     for (const std::uint32_t line : emitted_) {
-      Piece& piece = pieces_[line];
+      LinePiece& piece = pieces_[line];
       for (std::size_t i = 0; i < piece.forks.size(); ++i) {
         if (piece.folds[i]) continue;
-        addFork(piece, i, forks, branches);
+        piece.addFork(i, forks, branches);
         answers.push_back(&piece.folds[i]);
       }
     }
@@ -222,21 +213,12 @@ class Planner {
     for (std::size_t i = 0; i < folds.size(); ++i) *answers[i] = folds[i];
   }
 
-  static void addFork(const Piece& piece, std::size_t index, std::vector<shared::ForkRecord>& forks,
-                      std::vector<shared::ForkBranch>& branches) {
-    shared::ForkRecord fork = piece.forks[index];
-    const auto own = std::span(piece.branches).subspan(fork.firstBranch, fork.branchCount);
-    fork.firstBranch = std::uint32_t(branches.size());
-    branches.insert(branches.end(), own.begin(), own.end());
-    forks.push_back(fork);
-  }
-
   ForkPlan gathered() const {
     ForkPlan plan;
-    for (const Piece& piece : pieces_) {
+    for (const LinePiece& piece : pieces_) {
       plan.tubes.insert(plan.tubes.end(), piece.tubes.begin(), piece.tubes.end());
       for (std::size_t i = 0; i < piece.forks.size(); ++i) {
-        addFork(piece, i, plan.forks, plan.branches);
+        piece.addFork(i, plan.forks, plan.branches);
         plan.vesselOfFork.push_back(piece.forks[i].vesselA);
         plan.steps.push_back(piece.folds[i] ? piece.folds[i]->steps : 0);
         for (const ForkLeaving& leaving : piece.items[i].branches) plan.report.leaning += !leaving.exit.clear;
@@ -370,7 +352,7 @@ class Planner {
       item.shiftLimit = std::min(item.shiftLimit, most * radius);
     }
     std::vector<ForkRoom> rooms;
-    if (withoutRoom(items, rooms, range, 0)) return false;
+    if (withoutRoom(items, rooms, range.low, range.high, 0)) return false;
     for (std::size_t i = 0; i < items.size(); ++i)
       if (items[i].mustLow < 1e30f &&
           besideJoin(items[i], rooms[i]) < kJoinRoom * line.point(items[i].mustLow).w)
@@ -447,7 +429,7 @@ class Planner {
     std::vector<ForkItem> items = itemsOf(index, range);
     std::vector<ForkRoom> rooms;
     const float sliver = kSliver * lines_.lines[index].point(range.low).w;
-    if (const ForkItem* const item = withoutRoom(items, rooms, range, sliver)) {
+    if (const ForkItem* const item = withoutRoom(items, rooms, range.low, range.high, sliver)) {
       const std::uint32_t end = item->thinnest().child;
       if (!giveWay(end)) drop(end, Fate::crowded);
       return false;
@@ -457,88 +439,13 @@ class Planner {
     return true;
   }
 
-  // Gives them room. @return the one that is in the way most, if any is
-  static const ForkItem* withoutRoom(const std::vector<ForkItem>& items, std::vector<ForkRoom>& rooms,
-                                     Range range, float sliver) {
-    for (const ForkItem& item : items) rooms.push_back(item.room);
-    const ForkItem* worst = nullptr;
-    if (!shareRoom(rooms, range.low, range.high, sliver)) {
-      for (const ForkItem& item : items)
-        if (item.branch() && (!worst || item.thinnest().radius < worst->thinnest().radius)) worst = &item;
-      return worst;
-    }
-    float excess = 1;
-    for (std::size_t i = 0; i < items.size(); ++i) {
-      // A join that a fork pushes off its place: the nearest branch gives way.
-      if (items[i].mustLow <= rooms[i].low || items[i].mustHigh >= rooms[i].high)
-        return items[i].branch() ? &items[i] : nearestBranch(items, i);
-      const float share = items[i].branch() ? std::abs(rooms[i].shift) / items[i].shiftLimit : 0;
-      if (share > excess) excess = share, worst = &items[i];
-    }
-    return worst;
-  }
-
-  static const ForkItem* nearestBranch(const std::vector<ForkItem>& items, std::size_t to) {
-    const ForkItem* nearest = nullptr;
-    for (const ForkItem& item : items)
-      if (item.branch() && (!nearest || std::abs(item.room.centre - items[to].room.centre) <
-                                            std::abs(nearest->room.centre - items[to].room.centre)))
-        nearest = &item;
-    return nearest;
+  std::optional<float> ringOf(std::uint32_t end) const {
+    return forked(end) ? std::optional(exits_[end].ring) : std::nullopt;
   }
 
   void emit(std::uint32_t index) {
-    const Piece before = std::exchange(pieces_[index], {});
-    Piece& piece = pieces_[index];
-    const VesselLine& line = lines_.lines[index];
-    const bool fromBranch = forked(2 * index), toBranch = forked(2 * index + 1);
-    float from = fromBranch ? exits_[2 * index].ring : 0;
-    bool cap = !fromBranch;
-    for (const ForkItem& item : items_[index]) {
-      emitTube(piece, line, from, item.room.low, cap, false);
-      emitFork(piece, before, line, item);
-      from = item.room.high;
-      cap = false;
-    }
-    emitTube(piece, line, from, toBranch ? line.length() - exits_[2 * index + 1].ring : line.length(), cap,
-             !toBranch);
-  }
-
-  void emitTube(Piece& piece, const VesselLine& line, float from, float to, bool capFrom, bool capTo) const {
-    if (to <= from) return;
-    const LinePlace a = line.place(from), b = line.place(to);
-    TubeStretch tube{b.vessel, a.vessel == b.vessel ? a.u : (b.reversed ? spansOf(b) : 0), b.u, capFrom,
-                     capTo};
-    if (b.reversed) {
-      std::swap(tube.from, tube.to);
-      std::swap(tube.capFrom, tube.capTo);
-    }
-    if (tube.to > tube.from) piece.tubes.push_back(tube);
-  }
-  float spansOf(const LinePlace& place) const { return float(network_.vessels()[place.vessel].spanCount()); }
-
-  void emitFork(Piece& piece, const Piece& before, const VesselLine& line, const ForkItem& item) const {
-    const auto same = std::ranges::find(before.items, item);
-    piece.items.push_back(item);
-    if (same != before.items.end()) {
-      const auto index = std::size_t(same - before.items.begin());
-      addFork(before, index, piece.forks, piece.branches);
-      piece.folds.push_back(before.folds[index]);
-      return;
-    }
-    ForkCourse course{.low = line.place(item.room.low),
-                      .high = line.place(item.room.high),
-                      .length = item.room.high - item.room.low};
-    for (const ForkLeaving& leaving : item.branches) {
-      const VesselLine& branch = lines_.lines[leaving.child / 2];
-      const bool last = leaving.child % 2 == 1;
-      const auto way = [&](float fromEnd) { return last ? branch.length() - fromEnd : fromEnd; };
-      course.branches.push_back({branch.place(way(leaving.exit.ring)), branch.place(way(leaving.exit.cross)),
-                                 last, vec3(line.point(leaving.centre + item.room.shift)), leaving.hole,
-                                 leaving.around, leaving.cornerAround, leaving.cornerAlong});
-    }
-    piece.forks.push_back(makeForkRecord(network_, course, piece.branches));
-    piece.folds.emplace_back();
+    pieces_[index] = pieceOf(network_, lines_.lines, index, {ringOf(2 * index), ringOf(2 * index + 1)},
+                             items_[index], pieces_[index]);
   }
 
   void count(ForkPlan::Report& report) const {
@@ -565,7 +472,7 @@ class Planner {
   std::vector<std::vector<std::uint32_t>> children_;  // branches on each line
   std::vector<std::vector<ForkItem>> items_;
   std::vector<char> unsettled_, old_;  // lines of which something is another since they were settled, emitted
-  std::vector<Piece> pieces_;
+  std::vector<LinePiece> pieces_;
   std::vector<std::uint32_t> emitted_;  // lines, by the last emitOld()
 };
 
