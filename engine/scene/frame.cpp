@@ -71,6 +71,7 @@ void FrameMaker::make(const Clip* clip, float time) {
   const auto frame = std::uint32_t(place + kOnFrame);
   const float beyond = place - float(frame);
   const bool isBetween = beyond > kOnFrame;
+  if (track_->isOf(*clip) && frame < track_->first()) begin(*clip);  // both are needed
   goTo(*clip, frame + isBetween);
   if (isBetween) goBetween(*clip, frame, beyond, time);
   finish();

@@ -49,7 +49,7 @@ ForkExit findForkExit(const VesselLine& branch, bool last, const VesselLine& hos
     if (near.distance < near.radius) {
       exit.cross = from;
       exit.foot = foot;
-      outside = false;
+      outside = exit.found = exit.clear = false;
       best = 1e30f;
       limit = end;  // one that dips in again is followed on
     } else {

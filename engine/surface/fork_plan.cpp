@@ -38,6 +38,7 @@ constexpr std::uint32_t kNarrower[] = {0, 1, 2, 3, 6, 8};
 constexpr float kMostMoved = 1.5f, kMostPushed = 1, kJoinRoom = 0.5f;
 constexpr std::uint8_t kWayBeyond = 16;  // of ForkWays: a manner, and so many times beyond_
 static_assert(std::size(kManners) <= kWayBeyond);
+constexpr float kNoShift = -1;
 constexpr float kSliver = 0.1f;  // of the radius: shorter tubes go to the forks beside them
 
 enum class Fate { none, forked, hidden, tooShort, crowded, folded };
@@ -59,6 +60,7 @@ class Planner {
     readmitted_.resize(exits_.size(), false);
     reopened_.resize(exits_.size(), false);
     beyond_.resize(exits_.size(), 0);
+    shifts_.resize(exits_.size(), kNoShift);
     for (std::uint32_t end = 0; end < exits_.size(); ++end)
       if (isBranch(end)) children_[leftBy(end).host].push_back(end);
   }
@@ -328,10 +330,10 @@ class Planner {
     const LineEnd& own = lines_.ends[end / 2][end % 2];
     const VesselLine &branch = lines_.lines[end / 2], &host = lines_.lines[own.host];
     const std::uint32_t left = 2 * own.host + hostEnd;
-    if (!forked(left) || leftBy(left).host == end / 2 || leftBy(left).host == own.host) return false;
+    const LineEnd& beyond = lines_.ends[own.host][hostEnd];
+    if (!forked(left) || beyond_[left] > 0 || beyond.host == end / 2 || beyond.host == own.host) return false;
     if ((hostEnd ? host.length() - own.hostWay : own.hostWay) > exits_[left].ring) return false;
     const vec4 tip = branch.point(end % 2 ? branch.length() : 0);
-    const LineEnd& beyond = lines_.ends[own.host][hostEnd];
     const VesselLine::Foot foot =
         lines_.lines[beyond.host].nearest(vec3(tip), beyond.hostWay, exits_[left].ring + tip.w);
     return foot.distance < foot.radius + tip.w;
@@ -344,11 +346,9 @@ class Planner {
     const Range range = rangeOf(index);
     std::vector<ForkItem> items = itemsOf(index, range);
     for (ForkItem& item : items) {
-      float most = kMostMoved;
       const float radius = line.point(item.room.centre).w;
-      for (const ForkItem& before : items_[index])
-        if (before.branch() && item.branch() && before.branches[0].child == item.branches[0].child)
-          most = std::max(kMostPushed, std::abs(before.room.shift) / radius);
+      const float before = item.branch() ? shifts_[item.branches[0].child] : kNoShift;
+      const float most = before == kNoShift ? kMostMoved : std::max(kMostPushed, before / radius);
       item.shiftLimit = std::min(item.shiftLimit, most * radius);
     }
     std::vector<ForkRoom> rooms;
@@ -434,7 +434,12 @@ class Planner {
       if (!giveWay(end)) drop(end, Fate::crowded);
       return false;
     }
-    for (std::size_t i = 0; i < items.size(); ++i) items[i].room = rooms[i];
+    for (const ForkItem& item : items_[index])
+      if (item.branch()) shifts_[item.branches[0].child] = kNoShift;
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      items[i].room = rooms[i];
+      if (items[i].branch()) shifts_[items[i].branches[0].child] = std::abs(rooms[i].shift);
+    }
     items_[index] = std::move(items);
     return true;
   }
@@ -468,7 +473,8 @@ class Planner {
   std::vector<Fate> fates_;
   std::vector<Trial> trials_;
   std::vector<char> readmitted_, reopened_;
-  std::vector<std::uint8_t> beyond_;                  // of each end: as hang() has it
+  std::vector<std::uint8_t> beyond_;  // of each end: as hang() has it
+  std::vector<float> shifts_;  // [m] of a fork's first branch on its host, as settled; kNoShift of others
   std::vector<std::vector<std::uint32_t>> children_;  // branches on each line
   std::vector<std::vector<ForkItem>> items_;
   std::vector<char> unsettled_, old_;  // lines of which something is another since they were settled, emitted

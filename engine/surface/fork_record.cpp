@@ -123,8 +123,10 @@ shared::ForkRecord makeForkRecord(const Network& network, const ForkCourse& cour
       shared::ForkBranch& branch = branches[record.firstBranch + i];
       const float most = (record.row3 - record.row1) / (2 * kRowMargin);
       branch.holeAlong = std::min(branch.holeAlong, most);
-      branch.centre = std::clamp(branch.centre, record.row1 + kRowMargin * branch.holeAlong,
-                                 record.row3 - kRowMargin * branch.holeAlong);
+      // No clamp(): where the hole takes all there is, the least may be above the most by a rounding.
+      const float least = record.row1 + kRowMargin * branch.holeAlong,
+                  last = record.row3 - kRowMargin * branch.holeAlong;
+      branch.centre = branch.centre < least ? least : std::min(branch.centre, last);
     }
   }
   record.row2 = (record.row1 + record.row3) / 2;

@@ -164,7 +164,7 @@ std::optional<Beside> besideEnd(const Network& network, const Node& own) {
   const bool last = host.parameter > 0.5f * float(vessel.spanCount());
   const NodeId node = last ? vessel.end : vessel.start;
   const vec4 tip = last ? points.back() : points.front(), place = pointAt(network, host);
-  const float way = glm::distance(vec3(place), vec3(tip));
+  const float way = wayBetween(points, host.parameter, last ? float(vessel.spanCount()) : 0);
   if (!node.valid()) return way > tip.w ? std::nullopt : std::optional<Beside>({{host.vessel, last}, kNone});
   float widest = 0;
   for (const VesselEnd& end : network.ends(own))
@@ -327,10 +327,13 @@ VesselLines makeVesselLines(const Network& network, std::span<const std::array<V
     if (!junction.passes && junction.ends.size() >= 2) joiner.joinBest(junction.ends);
     junction.trunk = trunkOf(network, joiner, junction);
     carries[junction.trunk.vessel.value] = true;
-    for (const VesselId vessel : within)
+    for (const VesselId vessel : within) {
       if (!carries[vessel.value] && drawn({junction.trunk.vessel, false}) && !joiner.joins(vessel))
         doubles[vessel.value] =
             Double{junction.trunk.vessel, {junction.trunk.parameter, junction.trunk.parameter}};
+      else  // a vessel like others
+        junction.ends.insert(junction.ends.end(), {{vessel, false}, {vessel, true}});
+    }
   }
   VesselLines result;
   std::vector<std::uint32_t> lineOf(network.vessels().size(), kNone);
