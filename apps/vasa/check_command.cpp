@@ -48,7 +48,9 @@ Result<Setting> prepare(const Options& options) {
   const auto clip = sceneClip(setting.scene, *choice);
   if (!clip) return clip.error();
   setting.clip = *clip;
-  setting.timing = timingOf(setting.clip, options.fps);
+  auto timing = timingOf(setting.clip, options.fps);
+  if (!timing) return timing.error();
+  setting.timing = std::move(*timing);
   const auto range = parseFrameRange(options.frames, setting.timing.frameCount());
   if (!range) return range.error();
   setting.range = *range;

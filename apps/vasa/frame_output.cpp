@@ -43,11 +43,13 @@ std::optional<std::pair<std::uint32_t, std::uint32_t>> product(const std::string
 
 }  // namespace
 
-Clip timingOf(const Clip* clip, double fps) {
-  if (!clip) return {};
-  return {.start = clip->start,
-          .end = clip->end,
-          .framesPerSecond = fps > 0 ? float(fps) : clip->framesPerSecond};
+Result<Clip> timingOf(const Clip* clip, double fps) {
+  if (!clip && fps > 0)
+    return Error{Fault::usage, "--fps: without a clip there is one pose, rest; add --clip NAME"};
+  if (!clip) return Clip{};
+  return Clip{.start = clip->start,
+              .end = clip->end,
+              .framesPerSecond = fps > 0 ? float(fps) : clip->framesPerSecond};
 }
 
 Result<FrameRange> parseFrameRange(const std::string& text, std::uint32_t count) {

@@ -11,8 +11,8 @@ namespace vasa::cli {
 
 /// When a film's frames are: a clip's times alone, at its own rate or another; without a clip one frame, at
 /// 0.
-/// @param fps  frames a second; 0: the clip's own
-Clip timingOf(const Clip* clip, double fps);
+/// @param fps  frames a second; 0: the clip's own. Fails with usage where there is none
+Result<Clip> timingOf(const Clip* clip, double fps);
 
 /// "A:B", "A:" or ":B" or "A": the first and last frame, both included, within a clip of `count` frames.
 struct FrameRange {

@@ -206,11 +206,7 @@ Result<Report> surfaceReport(const std::filesystem::path& file) {
   const auto unit = report["metres_a_unit"].get<float>();
   for (SourceElement& source : *sources)
     for (vec3& p : source.element.mesh.positions) p *= unit;
-  std::vector<std::string> names;
-  for (const SourceElement& source : *sources) names.push_back(source.element.name);
-  const std::vector<std::string> left = leaveOutNoVessels(*sources);
-  for (std::size_t e = 0; e < names.size(); ++e)
-    if (std::ranges::find(left, names[e]) != left.end()) list[e]["left_out"] = true;
+  for (const std::size_t e : noVessels(*sources)) list[e]["left_out"] = true;
   report["element"] = std::move(list);
   return report;
 }

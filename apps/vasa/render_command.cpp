@@ -86,9 +86,9 @@ FrameOptions frameOptions(const Options& options) {
 // What was asked for, but for where the pictures go and which of them this run makes. Of files it is what
 // they hold that counts (FilesRead), of a clip its poses (trackKey).
 std::string settingsOf(const CLI::App& sub) {
-  static const std::set<std::string> otherwise{"SCENE",       "--body",   "--network", "--clip",
-                                               "--joint-map", "--growth", "--output",  "--frames",
-                                               "--video",     "--shard",  "--resume",  "--track"};
+  static const std::set<std::string> otherwise{"SCENE",    "--body",   "--network", "--clip", "--joint-map",
+                                               "--growth", "--output", "--frames",  "--fps",  "--video",
+                                               "--shard",  "--resume", "--track"};
   std::string settings = fmt::format("{} {}", VASA_VERSION, kMotionEdition);
   for (const CLI::Option* option : sub.get_options()) {
     if (otherwise.contains(option->get_name())) continue;
@@ -105,7 +105,8 @@ std::uint64_t hashOfRun(const FilmJob& job, const Options& options, std::uint64_
                         const FilesRead& files) {
   const std::uint64_t scene =
       job.clip ? trackKey(job.scene, *job.clip, frameOptions(options)) : hashOf(job.scene.network.points());
-  const std::string run = fmt::format("{}|{:016x}|{:016x}|{}", options.settings, files.hash(), scene, seed);
+  const std::string run = fmt::format("{}|{:016x}|{:016x}|{}|{}", options.settings, files.hash(), scene, seed,
+                                      job.timing.framesPerSecond);
   return hashOf(std::span(run));
 }
 
@@ -174,7 +175,9 @@ Result<FilmJob> prepare(const Globals& globals, const Options& options) {
   const auto clip = sceneClip(job.scene, job.choice);
   if (!clip) return clip.error();
   job.clip = *clip;
-  job.timing = timingOf(job.clip, options.fps);
+  auto timing = timingOf(job.clip, options.fps);
+  if (!timing) return timing.error();
+  job.timing = std::move(*timing);
   const auto range = parseFrameRange(options.frames, job.timing.frameCount());
   if (!range) return range.error();
   if (options.output != "-" && !options.output.empty()) {

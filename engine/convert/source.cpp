@@ -133,21 +133,36 @@ std::vector<SourceElement> describeElements(std::vector<MeshElement> elements, s
   return described;
 }
 
-std::vector<std::string> leaveOutNoVessels(std::vector<SourceElement>& sources) {
-  std::vector<std::string> left;
+std::vector<std::size_t> noVessels(const std::vector<SourceElement>& sources) {
   const auto wide = [](const SourceElement& source) {
     return roughRadius(source.element.mesh) > kWidestVessel;
   };
-  // The skin of a body, say. Where what is named as a vessel is as wide, all are in another unit.
-  if (std::ranges::any_of(sources, [&](const SourceElement& source) {
-        return source.kind != VesselKind::other && !source.noVessel && !wide(source);
-      }))
-    for (SourceElement& source : sources)
-      source.noVessel = source.noVessel || (source.kind == VesselKind::other && wide(source));
-  if (std::ranges::all_of(sources, &SourceElement::noVessel)) return left;
+  // The skin of a body, say, which holds most of what is named as a vessel (an aneurysm holds none). Where
+  // that is as wide, all are in another unit.
+  std::vector<vec3> named;
   for (const SourceElement& source : sources)
-    if (source.noVessel) left.push_back(source.element.name);
-  std::erase_if(sources, [](const SourceElement& source) { return source.noVessel; });
+    if (source.kind != VesselKind::other && !source.noVessel && !wide(source))
+      named.push_back(source.element.mesh.bounds().centre());
+  const auto holdsMost = [&](const SourceElement& source) {
+    const Aabb box = source.element.mesh.bounds();
+    const auto inside = std::ranges::count_if(named, [&](vec3 place) { return box.distance(place) == 0; });
+    return 2 * std::size_t(inside) > named.size();
+  };
+  std::vector<std::size_t> none;
+  for (std::size_t e = 0; e < sources.size(); ++e) {
+    const SourceElement& source = sources[e];
+    if (source.noVessel ||
+        (source.kind == VesselKind::other && !named.empty() && wide(source) && holdsMost(source)))
+      none.push_back(e);
+  }
+  return none.size() < sources.size() ? none : std::vector<std::size_t>();
+}
+
+std::vector<std::string> leaveOutNoVessels(std::vector<SourceElement>& sources) {
+  std::vector<std::string> left;
+  const std::vector<std::size_t> none = noVessels(sources);
+  for (const std::size_t e : none) left.push_back(sources[e].element.name);
+  for (std::size_t k = none.size(); k-- > 0;) sources.erase(sources.begin() + std::ptrdiff_t(none[k]));
   return left;
 }
 

@@ -44,8 +44,12 @@ bool sameFamily(VesselKind a, VesselKind b);
 /// of no known kind.
 std::vector<SourceElement> describeElements(std::vector<MeshElement> elements, std::string_view fileName);
 
+/// Which elements are no vessels: leaveOutNoVessels() takes them out. None where all are.
+std::vector<std::size_t> noVessels(const std::vector<SourceElement>& sources);
+
 /// Takes out what is no vessel by its name, where there is something else: of a whole body that was segmented
-/// the vessels alone; and what no name tells and is wider than any vessel, beside vessels that names tell.
+/// the vessels alone; and what no name tells, is wider than any vessel and holds most of those that names
+/// tell.
 /// @return the names of what was taken out
 std::vector<std::string> leaveOutNoVessels(std::vector<SourceElement>& sources);
 

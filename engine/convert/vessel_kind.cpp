@@ -37,6 +37,16 @@ std::string_view shortForm(std::string_view raw, std::string_view words) {
   return word && (latin || spoken) ? words.substr(1, end) : std::string_view{};
 }
 
+// "M. biceps", "N. vagus", which are masculine; not of main, middle and new: "M. media", "N. coronaria", "M.
+// sup".
+bool isMuscleOrNerve(std::string_view raw, std::string_view words) {
+  const std::string_view form = shortForm(raw, words);
+  if (form.empty() || raw[form.size()] != '.' || (form != "m" && form != "mm" && form != "n" && form != "nn"))
+    return false;
+  const std::string_view rest = words.substr(form.size() + 2), next = rest.substr(0, rest.find(' '));
+  return next.size() > 3 && next.back() != 'a';
+}
+
 VesselKind kindOfShortForm(std::string_view raw, std::string_view words) {
   const std::string_view form = shortForm(raw, words);
   if (form == "a" || form == "aa") return VesselKind::artery;
@@ -300,7 +310,7 @@ bool namesNoVessel(const MeshElement& element, std::string_view fileName) {
   // What segmentations of whole bodies name: organs, bones, muscles, and what is found or put in vessels;
   // then the first of these in Latin, German, French, Spanish, Portuguese and Italian. Whole words where
   // vessels are called after them: vertebral, bronchial, ovarian, cystic, inferior thyroid.
-  static constexpr std::array<std::string_view, 152> kOther{
+  static constexpr std::array<std::string_view, 151> kOther{
       " kidney ",     " kidneys ",     " liver ",     " spleen ",     " stomach ",
       " pancreas ",   " gallbladder ", " gall ",      " bladder ",    " esophagus ",
       " oesophagus ", " trachea ",     " bronchus ",  " bronchi ",    " thyroid gland ",
@@ -330,20 +340,26 @@ bool namesNoVessel(const MeshElement& element, std::string_view fileName) {
       " bazo ",       " corazon ",     " pulmon ",    " hueso ",      " huesos ",
       " cerebro ",    " piel ",        " figado ",    " coracao ",    " pulmao ",
       " osso ",       " fegato ",      " rene ",      " reni ",       " milza ",
-      " cuore ",      " polmone ",     " polmoni ",   " cervello ",   " ureter",
-      " ren dext",    " ren sinist"};
-  // "Liver vessels", "branch to the stomach".
-  static constexpr std::array<std::string_view, 20> kVessel{
-      " vessel",   " vasc",   " branch", " trunk ",   " plexus",      " sinus",     " anast",
-      " perfor",   " arcade", " lumen",  " capillar", " circumflex ", " marginal ", " gefa",
-      " vaisseau", " vaso ",  " vasos ", " vasi ",    " vas ",        " vasa "};
+      " cuore ",      " polmone ",     " polmoni ",   " cervello ",   " ureter ",
+      " ureters "};
+  // "Liver vessels", "branch to the stomach", "heart coronaries", "Herzkranzgefäße".
+  static constexpr std::array kVessel = std::to_array<std::string_view>(
+      {" vessel",   " vasc",    " branch",  " trunk ",   " plexus",     " sinus",     " anast",
+       " perfor",   " arcade",  " lumen",   " capillar", " circumflex", " marginal ", "gefa",
+       " vaisseau", " vaso ",   " vasos ",  " vasi ",    " vas ",       " vasa ",     " coronar",
+       " coronair", " koronar", " willis ", " basilar ", " sylvi",      " portal ",   " porta ",
+       " aneurysm", " fistul",  " graft",   " bypass",   " shunt",      " tips ",     " varic"});
   const std::string text = spaced(element.name);
-  const std::string_view form = shortForm(element.name, text);  // M. biceps, N. vagus
-  const bool other = hasAny(text, kOther) || form == "m" || form == "mm" || form == "n" || form == "nn" ||
-                     says(element.name, {"肝",    "腎",    "肾",     "脾",     "心臓",  "心脏",   "肺",
-                                         "骨",    "심장",  "신장",   "печень", "почка", "Печень", "Почка",
-                                         "селез", "Селез", "сердце", "Сердце", "кость", "Кость"});
-  const bool vessel = hasAny(text, kVessel) || says(element.name, {"血管", "脉", "脈", "혈관", "сосуд"});
+  const bool first = text.starts_with(" a ") || text.starts_with(" v ");  // "A lien", without its dot
+  const bool other =
+      hasAny(text, kOther) || text.starts_with(" ren dext") || text.starts_with(" ren sinist") ||
+      isMuscleOrNerve(element.name, text) ||
+      says(element.name,
+           {"肝",        "腎",        "肾",     "脾",     "心臓",   "心脏",  "肺",        "骨",
+            "심장",      "신장",      "печень", "почка",  "Печень", "Почка", "селезенка", "селезёнка",
+            "Селезенка", "Селезёнка", "сердце", "Сердце", "кость",  "Кость"});
+  const bool vessel = first || hasAny(text, kVessel) ||
+                      says(element.name, {"血管", "脉", "脈", "혈관", "сосуд", "腸骨", "肠骨", "髂"});
   // By all texts and no colour: organs have some, too.
   const MeshElement told{element.name, element.category, element.ontologyId, {}, element.surroundings};
   return other && !vessel && kindOf(told, fileName) == VesselKind::other;

@@ -62,9 +62,11 @@ std::vector<std::string> nameWords(std::string_view name) {
 }
 
 NamedSide sideNamed(std::string_view name) {
-  static constexpr std::array<std::string_view, 11> kLeft{
-      "left", "sinist", "links", "linke", "gauche", "izquie", "esquerd", "lft", "lt", "sin", "sx"},
-      kRight{"right", "dext", "rechts", "rechte", "droit", "derech", "direit", "destr", "rt", "dex", "dx"};
+  static constexpr std::array<std::string_view, 9> kLeft{"left",   "sinist",  "links", "linke", "gauche",
+                                                         "izquie", "esquerd", "lft",   "lt"},
+      kRight{"right", "dext", "rechts", "rechte", "droit", "derech", "direit", "destr", "rt"};
+  // Last in a name alone: "sin contraste" is without any, and Dx a diagnosis.
+  static constexpr std::array<std::string_view, 3> kLastLeft{"l", "sin", "sx"}, kLastRight{"r", "dex", "dx"};
   bool left = name.find("左") != name.npos, right = name.find("右") != name.npos;
   std::vector<std::string> words = nameWords(name);
   // Those of up to three letters are words, the others begin some.
@@ -75,7 +77,8 @@ NamedSide sideNamed(std::string_view name) {
   };
   for (const std::string& word : words) left |= begins(word, kLeft), right |= begins(word, kRight);
   while (!words.empty() && words.back()[0] >= '0' && words.back()[0] <= '9') words.pop_back();
-  if (!words.empty() && !left && !right) left = words.back() == "l", right = words.back() == "r";
+  if (!words.empty() && !left && !right)
+    left = begins(words.back(), kLastLeft), right = begins(words.back(), kLastRight);
   if (left == right) return NamedSide::none;
   return left ? NamedSide::left : NamedSide::right;
 }

@@ -191,7 +191,6 @@ void tellNamesApart(Skeleton& skeleton) {
   }
 }
 
-// What the file leaves open of where the body is at rest, and what of it is not seen.
 // Whether one side's arm and leg have next to no skin, and the other side's have.
 bool isHalf(const Body& body) {
   constexpr double kNextToNone = 0.05;
@@ -217,6 +216,7 @@ bool isHalf(const Body& body) {
   return lacks(0) || lacks(1);
 }
 
+// What the file leaves open of where the body is at rest, and what of it is not seen.
 void tellWhatIsOpen(const Asset& asset, const BodySkeleton& joints, const Body& body) {
   const auto& model = asset.model;
   if (std::ranges::any_of(model.nodes, [&](const Model::Node& node) {

@@ -144,6 +144,11 @@ TEST_CASE("at twice the clip's rate every other frame is the clip's own, also fr
           .exit == 0);
   CHECK(listOf(share.path()) == std::vector<std::string>{"001.png", "003.png"});
   CHECK(pixelsOf(share.path() / "003.png") == pixelsOf(twice.path() / "003.png"));
+  // A rate that the clip has anyhow is no other run; of a pose there is none.
+  const auto same = runProgram(walk(own.path(), {"--fps", "30", "--frames", "0:2", "--resume", "--json"}));
+  REQUIRE_MESSAGE(same.exit == 0, same.err);
+  CHECK(same.json()["frames_kept"] == 3);
+  CHECK(runProgram({"render", "--fps", "30", "-o", (own.path() / "rest.png").string()}).exit == 2);
 }
 
 TEST_CASE("shards share a film without overlap, and --resume keeps what is there") {

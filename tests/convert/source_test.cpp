@@ -166,6 +166,30 @@ TEST_CASE("organs, bones and findings are known by their names, where nothing sa
   for (const char* name : {"A. hepatica", "Gefäße Leber", "vaisseaux du foie", "vasos del hígado", "肝血管",
                            "肺动脉", "M1", "Ren_L", "Splen", "m.001", "n_2", "M.Schmidt"})
     CHECK_MESSAGE(!namesNoVessel(named(name), "scan"), name);
+  for (const char* name : {"coeur coronaires",
+                           "Herz Kranzgefäße",
+                           "heart_coronaries",
+                           "heart_bypass_graft",
+                           "brain_circle_of_willis",
+                           "brain basilar",
+                           "brain_aneurysm",
+                           "liver_portal",
+                           "liver TIPS",
+                           "AV fistula kidney",
+                           "esophagus varices",
+                           "A ren dext",
+                           "A_ren_sinistra",
+                           "V ren dext",
+                           "A lien",
+                           "a uretericus",
+                           "總腸骨",
+                           "селезеночная",
+                           "m. media",
+                           "M. sup",
+                           "N. coronaria",
+                           "m_cerebralis",
+                           "n_phrenica"})
+    CHECK_MESSAGE(!namesNoVessel(named(name), "scan"), name);
   CHECK(!namesNoVessel(named("stomach"), "bp3d_arteries"));
   CHECK(!namesNoVessel(named("stomach", "vein"), "scan"));
   MeshElement lung = named("lung");
@@ -188,6 +212,11 @@ TEST_CASE("organs, bones and findings are known by their names, where nothing sa
   wide[2].name = "Mesh.001", wide[2].mesh = test::tubeBetween({0.05f, 1, 0}, {0.05f, 1.4f, 0}, 0.01f);
   auto all = describeElements(wide, "scan");
   CHECK(leaveOutNoVessels(all) == std::vector<std::string>{"Figure"});
+  wide[1].mesh =
+      test::tubeBetween({0.3f, 1, 0}, {0.3f, 1.4f, 0}, 0.01f);  // beside it, which may be an aneurysm
+  all = describeElements(wide, "scan");
+  CHECK(leaveOutNoVessels(all).empty());
+  wide[1].mesh = test::tubeBetween({0, 1, 0}, {0, 1.4f, 0}, 0.01f);
   for (MeshElement& element : wide)
     for (vec3& p : element.mesh.positions) p *= 100;  // in centimetres
   all = describeElements(wide, "scan");
