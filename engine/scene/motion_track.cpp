@@ -110,6 +110,7 @@ void MotionTrack::restart(const Clip& clip, std::size_t variables, std::size_t p
 }
 
 void MotionTrack::restart(const Clip& clip, const Correction& first) {
+  if (keeps_ == Keeps::latest && frames_.size() == 2) spare_ = std::move(frames_[1]);
   frames_.resize(1);
   take(first, frames_[0]);
   restart(clip, first.motions.size(), first.widest.size(), std::move(frames_));
@@ -120,9 +121,16 @@ void MotionTrack::add(const Correction& correction) {
     ++first_;
     std::swap(frames_[0], frames_[1]);
   } else {
-    frames_.emplace_back();
+    frames_.push_back(std::move(spare_));
+    spare_ = {};
   }
   take(correction, frames_.back());
+  if (keeps_ == Keeps::all) return;
+  for (TrackFrame& frame : frames_)  // either may come to hold any frame of the next round
+    for (const TrackFrame& other : frames_) {
+      frame.moved.reserve(other.moved.size());
+      frame.narrowed.reserve(other.narrowed.size());
+    }
 }
 
 void MotionTrack::at(std::uint32_t frame, Correction& correction) const {

@@ -62,6 +62,7 @@ class MotionTrack {
   std::uint32_t first_ = 0;
   std::size_t variables_ = 0, points_ = 0;
   std::vector<Frame> frames_;
+  Frame spare_;  // room of a frame that is not kept any more
 };
 
 /// What a track depends on: vessels, body, the clip's poses and the options that change a frame. Tracks with
