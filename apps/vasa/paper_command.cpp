@@ -65,7 +65,7 @@ Result<void> prepare(const Globals& globals, const Options& options, PaperStudy&
   study.meshesGiven = !meshes->empty();
   study.meshes = study.meshesGiven ? std::move(*meshes) : meshesOf(study.scene.network);
   if (choice->clip.empty()) choice->clip = ownClip(study.scene.body);
-  clearArms(*choice, study.scene.body, study.scene.body.clips);
+  clearLimbs(*choice, study.scene.body, study.scene.body.clips);
   const auto clip = findClip(study.scene.body, choice->clip);
   if (!clip && !choice->clip.empty()) return clip.error();
   study.clip = clip ? *clip : nullptr;

@@ -24,7 +24,7 @@ struct Options {
 
 // Where its motions bring vessels near bones: a first look at a place takes long (solids/bones.h).
 void solveAll(Scene& scene, const SceneFile& file, const ReadingProgress& told) {
-  clearArms(file, scene.body, scene.body.clips);
+  clearLimbs(file, scene.body, scene.body.clips);
   FrameMaker frames(scene,
                     {.avoid = true, .track = std::make_shared<MotionTrack>(MotionTrack::Keeps::latest)});
   std::size_t done = 0, count = 0;

@@ -155,7 +155,7 @@ Result<std::shared_ptr<const Document>> loadDocument(const SceneFile& file, cons
     if (part == 0)
       document->table = std::make_shared<const SweepTable>(makeSweepTable(document->scene.network));
     else if (part == 1)
-      document->clearedArms = clearArms(file, document->scene.body, document->scene.body.clips);
+      document->clearedLimbs = clearLimbs(file, document->scene.body, document->scene.body.clips);
     else
       document->levels = std::make_shared<const BodyLevels>(
           bodyLevels(document->scene.body.meshes, &document->scene.body.skeleton));
@@ -194,7 +194,7 @@ Result<std::shared_ptr<const Document>> editedDocument(const Document& document,
   made->levels = document.levels;
   made->mannequin = document.mannequin;
   made->title = document.title;
-  made->clearedArms = document.clearedArms;
+  made->clearedLimbs = document.clearedLimbs;
   made->base = document.base;
   made->baseBinding = document.baseBinding;
   made->rebinder = document.rebinder;

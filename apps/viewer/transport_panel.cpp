@@ -12,8 +12,8 @@ namespace {
 
 void tellCleared(const Document& document, std::string_view clip) {
   std::string text;
-  for (const ClearedArm& arm : document.clearedArms)
-    if (arm.clip == clip) text += describeArm(arm) + "\n";
+  for (const ClearedLimb& limb : document.clearedLimbs)
+    if (limb.clip == clip) text += describeLimb(limb) + "\n";
   if (text.empty()) return;
   text.pop_back();
   ImGui::SetTooltip("%s", text.c_str());

@@ -4,8 +4,8 @@
 #include <atomic>
 #include <cmath>
 
-#include "body/arm_flesh.h"
 #include "body/joint_motion.h"
+#include "body/limb_flesh.h"
 #include "body/skin_field.h"
 #include "body/skinning.h"
 #include "core/parallel.h"
@@ -18,7 +18,7 @@ constexpr float kMostTurn = 0.5f;      // [rad], see the header
 constexpr float kReachSeconds = 0.2f;  // to both sides, see the header
 constexpr float kBeyond = 0.001f;      // [m] taken out by more than is asked, so that steps end
 constexpr float kLever =
-    0.1f;  // [m] an arm shorter than this is turned by less than would do: no step is wild
+    0.1f;  // [m] a limb shorter than this is turned by less than would do: no step is wild
 constexpr int kSteps = 20, kRounds = 4;
 
 quat turnOf(vec3 turn) {
@@ -33,13 +33,13 @@ vec3 vectorOf(quat turn) {
   return sine > 0 ? v * (2 * std::atan2(sine, turn.w) / sine) : vec3(0);
 }
 
-// One arm in one frame.
-struct ArmStance {
-  vec3 shoulder{0};
-  vec3 aside{0};  // from the other shoulder
+// One limb in one frame.
+struct LimbStance {
+  vec3 top{0};    // shoulder or hip
+  vec3 aside{0};  // from the other side's
   std::vector<vec3> places;
   std::vector<mat4> toRest;
-  std::span<const float> unturned;  // [m] how deep the places are without a turn (ArmlessFlesh::depths)
+  std::span<const float> unturned;  // [m] how deep the places are without a turn (Flesh::depths)
 };
 
 struct Deepest {
@@ -47,13 +47,14 @@ struct Deepest {
   vec3 place{0}, outwards{0};
 };
 
-class ArmClearing {
+class LimbClearing {
  public:
-  ArmClearing(const Body& body, const SkinnedMesh& skin, const ArmlessFlesh& flesh, const ArmPlaces& arm)
-      : body_(body), skin_(skin), flesh_(flesh), arm_(arm) {}
+  LimbClearing(const Body& body, const SkinnedMesh& skin, const Flesh& flesh, const LimbPlaces& limb)
+      : body_(body), skin_(skin), flesh_(flesh), limb_(limb) {}
 
-  ClearedArm run(Clip& clip) {
-    ClearedArm told{.joint = body_.skeleton.joints[arm_.shoulder.value].name};
+  // @param share  of the turn that is made
+  ClearedLimb run(Clip& clip, float share) {
+    ClearedLimb told{.joint = body_.skeleton.joints[limb_.top.value].name};
     const std::uint32_t frames = clip.frameCount();
     unturned_.assign(frames, {});
     std::vector<float> depths(frames);
@@ -70,7 +71,7 @@ class ArmClearing {
     for (int k = 0;; ++k) {
       std::atomic<bool> done = true;
       parallelFor(frames, 1, [&](std::size_t f) {
-        const ArmStance here = stance(f);
+        const LimbStance here = stance(f);
         depths[f] = deepest(here, turns[f]).depth;
         if (depths[f] <= kFleshGives || k == kRounds) return;
         asked[f] = cleared(here, turns[f]);
@@ -81,42 +82,42 @@ class ArmClearing {
     }
     told.after = *std::ranges::max_element(depths);
     told.left = std::uint32_t(std::ranges::count_if(depths, [](float d) { return d > kFleshGives; }));
-    for (const vec3& turn : turns) told.turn = std::max(told.turn, glm::length(turn));
-    turnShoulder(clip, turns);
+    for (vec3& turn : turns) told.turn = std::max(told.turn, glm::length(turn *= share));
+    turnTop(clip, turns);
     return told;
   }
 
  private:
   // @param unturned  kept from one time to the next: most of the cost
-  ArmStance stanceIn(const Pose& pose, std::vector<float>& unturned) const {
-    const vec3 shoulder(pose.world[arm_.shoulder.value][3]);
+  LimbStance stanceIn(const Pose& pose, std::vector<float>& unturned) const {
+    const vec3 top(pose.world[limb_.top.value][3]);
     const vec3 aside =
-        arm_.other.valid() ? directionOf(shoulder - vec3(pose.world[arm_.other.value][3])) : vec3(0);
-    ArmStance stance{
-        shoulder, aside, arm_.posed(skin_, skinMatrices(body_.skeleton, pose)), flesh_.toRest(pose), {}};
+        limb_.other.valid() ? directionOf(top - vec3(pose.world[limb_.other.value][3])) : vec3(0);
+    LimbStance stance{
+        top, aside, limb_.posed(skin_, skinMatrices(body_.skeleton, pose)), flesh_.toRest(pose), {}};
     if (unturned.empty()) unturned = flesh_.depths(stance.toRest, stance.places);
     stance.unturned = unturned;
     return stance;
   }
 
   // A place that a turn takes less far than it was from the flesh is out of it still.
-  Deepest deepest(const ArmStance& stance, vec3 turn) const {
+  Deepest deepest(const LimbStance& stance, vec3 turn) const {
     const quat q = turnOf(turn);
     const float angle = glm::length(turn);
     Deepest found;
     for (std::size_t i = 0; i < stance.places.size(); ++i) {
-      const vec3 arm = stance.places[i] - stance.shoulder;
-      if (stance.unturned[i] + angle * glm::length(arm) <= arm_.atRest[i]) continue;
-      const auto at = flesh_.look(stance.toRest, stance.shoulder + q * arm);
-      if (const float depth = at.depth - arm_.atRest[i]; depth > found.depth)
-        found = {depth, stance.shoulder + q * arm, at.outwards};
+      const vec3 reach = stance.places[i] - stance.top;
+      if (stance.unturned[i] + angle * glm::length(reach) <= limb_.atRest[i]) continue;
+      const auto at = flesh_.look(stance.toRest, stance.top + q * reach);
+      if (const float depth = at.depth - limb_.atRest[i]; depth > found.depth)
+        found = {depth, stance.top + q * reach, at.outwards};
     }
     return found;
   }
 
-  // The least turn that takes the arm out, from one that does not. A hand that is most of the way through a
+  // The least turn that takes the limb out, from one that does not. A hand that is most of the way through a
   // limb would leave it on the wrong side: where the nearest way out is none, it is taken aside.
-  vec3 cleared(const ArmStance& stance, vec3 turn) const {
+  vec3 cleared(const LimbStance& stance, vec3 turn) const {
     const vec3 nearest = turnedOut(stance, turn, vec3(0));
     const float left = deepest(stance, nearest).depth;
     if (stance.aside == vec3(0) || left <= kFleshGives) return nearest;
@@ -124,11 +125,11 @@ class ArmClearing {
     return deepest(stance, aside).depth < left ? aside : nearest;
   }
 
-  vec3 turnedOut(const ArmStance& stance, vec3 turn, vec3 way) const {
+  vec3 turnedOut(const LimbStance& stance, vec3 turn, vec3 way) const {
     for (int k = 0; k < kSteps; ++k) {
       const Deepest at = deepest(stance, turn);
       if (at.depth <= kFleshGives) break;
-      const vec3 axis = glm::cross(at.place - stance.shoulder, way == vec3(0) ? at.outwards : way);
+      const vec3 axis = glm::cross(at.place - stance.top, way == vec3(0) ? at.outwards : way);
       const float lever = std::max(glm::dot(axis, axis), kLever * kLever);
       turn = vectorOf(turnOf(axis * ((at.depth - kFleshGives + kBeyond) / lever)) * turnOf(turn));
       if (const float angle = glm::length(turn); angle > kMostTurn) return turn * (kMostTurn / angle);
@@ -164,54 +165,83 @@ class ArmClearing {
   }
 
   // Keys at the frames: between its own keys a clip may bend otherwise, but frames are what is shown.
-  void turnShoulder(Clip& clip, const std::vector<vec3>& turns) const {
+  void turnTop(Clip& clip, const std::vector<vec3>& turns) const {
     const auto& joints = body_.skeleton.joints;
-    const JointId above = joints[arm_.shoulder.value].parent;
+    const JointId above = joints[limb_.top.value].parent;
     Track<quat> track;
     for (std::uint32_t f = 0; f < turns.size(); ++f) {
       const Pose pose = samplePose(body_.skeleton, clip, clip.timeOfFrame(f));
       const quat parent = rotationOf(above.valid() ? pose.world[above.value] : body_.skeleton.rootTransform);
-      const quat world = turnOf(turns[f]) * rotationOf(pose.world[arm_.shoulder.value]);
+      const quat world = turnOf(turns[f]) * rotationOf(pose.world[limb_.top.value]);
       quat local = glm::normalize(glm::conjugate(parent) * world);
       if (!track.values.empty() && glm::dot(track.values.back(), local) < 0) local = -local;
       track.times.push_back(clip.timeOfFrame(f));
       track.values.push_back(local);
     }
     const auto of =
-        std::ranges::find_if(clip.tracks, [&](const JointTracks& t) { return t.joint == arm_.shoulder; });
+        std::ranges::find_if(clip.tracks, [&](const JointTracks& t) { return t.joint == limb_.top; });
     if (of != clip.tracks.end())
       of->rotation = std::move(track);
     else
       clip.tracks.push_back(
-          {.joint = arm_.shoulder, .translation = {}, .rotation = std::move(track), .scale = {}});
+          {.joint = limb_.top, .translation = {}, .rotation = std::move(track), .scale = {}});
   }
 
   const Body& body_;
   const SkinnedMesh& skin_;
-  const ArmlessFlesh& flesh_;
-  const ArmPlaces& arm_;
+  const Flesh& flesh_;
+  const LimbPlaces& limb_;
   std::vector<std::vector<float>> unturned_;  // one a frame
 };
 
 }  // namespace
 
-std::vector<ClearedArm> keepArmsClear(const Body& body, std::span<Clip> clips) {
-  std::vector<ClearedArm> told;
+std::vector<ClearedLimb> keepLimbsClear(const Body& body, std::span<Clip> clips) {
+  std::vector<ClearedLimb> told;
   const SkinnedMesh* skin = skinOf(body);
   if (!skin || clips.empty()) return told;
-  std::vector<ArmPlaces> arms = armsOf(body, *skin);
-  if (arms.empty()) return told;
-  const ArmlessFlesh flesh(body, *skin, armJointsOf(body));
+  const Rig rig = rigOf(body.skeleton);
   const Pose rest = restPose(body.skeleton);
-  const auto toRest = flesh.toRest(rest);
-  for (ArmPlaces& arm : arms)
-    for (const vec3& place : arm.posed(*skin, skinMatrices(body.skeleton, rest)))
-      arm.atRest.push_back(std::max(0.0f, flesh.look(toRest, place).depth));
+  const std::vector<mat4> restMatrices = skinMatrices(body.skeleton, rest);
+  const auto settle = [&](LimbPlaces& limb, const Flesh& flesh) {
+    const std::vector<mat4> toRest = flesh.toRest(rest);
+    for (const vec3& place : limb.posed(*skin, restMatrices))
+      limb.atRest.push_back(std::max(0.0f, flesh.look(toRest, place).depth));
+  };
+  std::vector<Clip*> looked;
   for (Clip& clip : clips)
-    for (const ArmPlaces& arm : arms) {
-      if (clip.frameCount() > kMostClearedFrames) continue;
-      told.push_back(ArmClearing(body, *skin, flesh, arm).run(clip));
-      told.back().clip = clip.name;
+    if (clip.frameCount() <= kMostClearedFrames) looked.push_back(&clip);
+
+  // Legs first: arms keep clear of them as they go then. The left one makes half of the way out of the right
+  // one, and that one the rest.
+  if (std::vector<LimbPlaces> legs = legPlaces(body, *skin, rig); legs.size() == 2) {
+    const auto fleshOf = [&](const LimbPlaces& leg) {
+      std::vector<char> others = hangingOn(rig, {&leg, 1});
+      for (char& other : others) other = !other;
+      return Flesh(body, *skin, others);
+    };
+    const Flesh right = fleshOf(legs[1]), left = fleshOf(legs[0]);
+    settle(legs[0], right);
+    settle(legs[1], left);
+    for (Clip* clip : looked) {
+      ClearedLimb& both = told.emplace_back(LimbClearing(body, *skin, right, legs[0]).run(*clip, 0.5f));
+      both.clip = clip->name;
+      both.other = body.skeleton.joints[legs[1].top.value].name;
+      if (both.frames == 0) continue;  // the right one keeps clear of the left one, then
+      const ClearedLimb second = LimbClearing(body, *skin, left, legs[1]).run(*clip, 1);
+      both.left = second.left;
+      both.after = second.after;
+      both.turn += second.turn;
+    }
+  }
+  std::vector<LimbPlaces> arms = armPlaces(body, *skin, rig);
+  if (arms.empty()) return told;
+  const Flesh flesh(body, *skin, hangingOn(rig, arms));
+  for (LimbPlaces& arm : arms) settle(arm, flesh);
+  for (Clip* clip : looked)
+    for (const LimbPlaces& arm : arms) {
+      told.push_back(LimbClearing(body, *skin, flesh, arm).run(*clip, 1));
+      told.back().clip = clip->name;
     }
   return told;
 }

@@ -190,30 +190,35 @@ Result<const Clip*> findClip(const Body& body, std::string_view name) {
   return found;
 }
 
-std::string describeArm(const ClearedArm& arm) {
-  const std::string what = fmt::format("{} lies up to {:.0f} mm in the body in {} frames", arm.joint,
-                                       1000 * arm.before, arm.frames);
-  if (arm.left == 0)
-    return fmt::format("{}, and is turned out of it by up to {:.1f} degrees", what, glm::degrees(arm.turn));
+std::string describeLimb(const ClearedLimb& limb) {
+  const bool legs = !limb.other.empty();
+  const std::string what =
+      fmt::format("{} up to {:.0f} mm in {} in {} frames",
+                  legs ? limb.joint + " and " + limb.other + " lie" : limb.joint + " lies",
+                  1000 * limb.before, legs ? "one another" : "the body", limb.frames);
+  const float degrees = glm::degrees(limb.turn);
+  if (limb.left == 0)
+    return fmt::format("{}, and {} by up to {:.1f} degrees", what,
+                       legs ? "are turned apart" : "is turned out of it", degrees);
   return fmt::format(
       "{}, and still in {} of them after a turn by {:.1f} degrees: vessels there are held aside", what,
-      arm.left, glm::degrees(arm.turn));
+      limb.left, degrees);
 }
 
-std::vector<ClearedArm> clearArms(const SceneFile& file, const Body& body, std::span<Clip> clips) {
+std::vector<ClearedLimb> clearLimbs(const SceneFile& file, const Body& body, std::span<Clip> clips) {
   if (file.asRecorded) return {};
   for (const Clip& clip : clips)
     if (clip.frameCount() > kMostClearedFrames)
       logWarning(fmt::format(
-          "{}: of more than {} frames, so that arms are left as they are, also where they pass through the body",
+          "{}: of more than {} frames, so that limbs are left as they are, also where they pass through the body",
           clip.name, kMostClearedFrames));
-  std::vector<ClearedArm> arms = keepArmsClear(body, clips);
-  std::erase_if(arms, [](const ClearedArm& arm) { return arm.frames == 0; });
-  for (const ClearedArm& arm : arms) {
-    const std::string text = arm.clip + ": " + describeArm(arm);
-    arm.left == 0 ? logInfo(text + "; --as-recorded leaves it") : logWarning(text);
+  std::vector<ClearedLimb> limbs = keepLimbsClear(body, clips);
+  std::erase_if(limbs, [](const ClearedLimb& limb) { return limb.frames == 0; });
+  for (const ClearedLimb& limb : limbs) {
+    const std::string text = limb.clip + ": " + describeLimb(limb);
+    limb.left == 0 ? logInfo(text + "; --as-recorded leaves it") : logWarning(text);
   }
-  return arms;
+  return limbs;
 }
 
 Result<const Clip*> clipOf(const Body& body, const SceneFile& file) {
@@ -223,8 +228,8 @@ Result<const Clip*> clipOf(const Body& body, const SceneFile& file) {
 Result<const Clip*> sceneClip(Scene& scene, const SceneFile& file) {
   auto found = clipOf(scene.body, file);
   if (!found || !*found) return found;
-  clearArms(file, scene.body,
-            std::span(scene.body.clips).subspan(std::size_t(*found - scene.body.clips.data()), 1));
+  clearLimbs(file, scene.body,
+             std::span(scene.body.clips).subspan(std::size_t(*found - scene.body.clips.data()), 1));
   return found;
 }
 

@@ -32,16 +32,16 @@ Result<const Clip*> findClip(const Body& body, std::string_view name);
 /// The one that a scene names; null where it names none.
 Result<const Clip*> clipOf(const Body& body, const SceneFile& file);
 
-/// The clip that a scene file names; nullptr where it names none. Arms that pass through the body are turned
+/// The clip that a scene file names; nullptr where it names none. Limbs that pass through the body are turned
 /// out of it (body/limb_clearance.h), and what was done is told, unless the file asks for the motion as
 /// recorded.
 Result<const Clip*> sceneClip(Scene& scene, const SceneFile& file);
 
-/// The same for all clips of a body. @return  the arms that were, or that could not be
-std::vector<ClearedArm> clearArms(const SceneFile& file, const Body& body, std::span<Clip> clips);
+/// The same for all clips of a body. @return  the limbs that were, or that could not be
+std::vector<ClearedLimb> clearLimbs(const SceneFile& file, const Body& body, std::span<Clip> clips);
 
 /// "LeftArm lies up to 46 mm in the body in 80 frames, and is turned out of it by up to 6.4 degrees"
-std::string describeArm(const ClearedArm& arm);
+std::string describeLimb(const ClearedLimb& limb);
 
 /// The part of the scene that a name means: a vessel or a joint. Upper and lower case are alike; a whole name
 /// goes before a part of one, vessels before joints.

@@ -90,7 +90,7 @@ struct SceneFile {
       holds;         ///< where vessels are held in their beds (scene/holds.h); empty: at forks alone
   std::string clip;  ///< a clip's name or the beginning of it, or a .bvh file
   std::filesystem::path jointMap;  ///< pairs of joints for a .bvh file (io/bvh.h); empty: by name
-  bool asRecorded = false;         ///< arms that pass through the body stay there (body/limb_clearance.h)
+  bool asRecorded = false;         ///< limbs that pass through the body stay there (body/limb_clearance.h)
   CameraChoice camera;
   LookChoice look;
   CapillaryChoice capillaries;

@@ -17,45 +17,69 @@ namespace {
 constexpr int kFrames = 61;
 constexpr float kThrough = 52, kClear = 25;  // [degrees] it hangs by 56
 
-// The left arm of a person that holds them aside is lowered and raised again.
-Clip lowered(const Body& body, float degrees) {
+// A limb on the left is turned down or inwards and back again.
+Clip turned(const Body& body, const char* joint, float degrees) {
   Clip clip;
-  clip.name = "lowered";
+  clip.name = "turned";
   clip.end = float(kFrames - 1) / clip.framesPerSecond;
-  JointTracks arm{
-      .joint = body.skeleton.find("leftUpperArm"), .translation = {}, .rotation = {}, .scale = {}};
+  JointTracks limb{.joint = body.skeleton.find(joint), .translation = {}, .rotation = {}, .scale = {}};
   for (int f = 0; f < kFrames; ++f) {
     const float share = std::sin(kPi * float(f) / float(kFrames - 1));
-    arm.rotation.times.push_back(clip.timeOfFrame(std::uint32_t(f)));
-    arm.rotation.values.push_back(glm::angleAxis(-glm::radians(degrees * share), vec3(0, 0, 1)));
+    limb.rotation.times.push_back(clip.timeOfFrame(std::uint32_t(f)));
+    limb.rotation.values.push_back(glm::angleAxis(-glm::radians(degrees * share), vec3(0, 0, 1)));
   }
-  clip.tracks.push_back(arm);
+  clip.tracks.push_back(limb);
   return clip;
 }
 
-// How deep the skin of lower arm and hand lies in that of trunk and legs, as the pose has both [m].
-float depthIn(const Body& body, const Clip& clip, std::uint32_t frame) {
+// The left arm of a person that holds them aside is lowered and raised again.
+Clip lowered(const Body& body, float degrees) { return turned(body, "leftUpperArm", degrees); }
+
+// How deep the skin of one part lies in that of others, as the pose has both [m].
+// @param isPart, isOther  of joints' names
+template <class IsPart, class IsOther>
+float depthIn(const Body& body, const Clip& clip, std::uint32_t frame, const IsPart& isPart,
+              const IsOther& isOther) {
   const SkinnedMesh& skin = body.meshes[0];
-  const auto onArm = [&](std::uint32_t v, bool lower) {
+  const auto follows = [&](std::uint32_t v, const auto& counts) {
     float share = 0;
-    for (int k = 0; k < 4; ++k) {
-      const std::string& name = body.skeleton.joints[skin.influences[v].joints[std::size_t(k)]].name;
-      if (name.ends_with("LowerArm") || name.ends_with("Hand") || (!lower && name.ends_with("UpperArm")))
+    for (int k = 0; k < 4; ++k)
+      if (counts(body.skeleton.joints[skin.influences[v].joints[std::size_t(k)]].name))
         share += skin.influences[v].weights[k];
-    }
     return share > 0.5f;
   };
   TriangleMesh trunk = skin.mesh;
   skinPositions(skin, skinMatrices(body.skeleton, samplePose(body.skeleton, clip, clip.timeOfFrame(frame))),
                 trunk.positions);
-  std::erase_if(trunk.triangles, [&](const uvec3& t) { return onArm(t.x, false); });
+  std::erase_if(trunk.triangles, [&](const uvec3& t) { return !follows(t.x, isOther); });
   const TriangleTree tree(trunk);
   const WindingNumber winding(trunk.positions, trunk.triangles);
   float depth = 0;
   for (std::uint32_t v = 0; v < trunk.positions.size(); ++v)
-    if (onArm(v, true) && winding.at(trunk.positions[v]) > 0.5f)
+    if (follows(v, isPart) && winding.at(trunk.positions[v]) > 0.5f)
       depth = std::max(depth, tree.nearest(trunk.positions[v]).distance);
   return depth;
+}
+
+// Of lower arm and hand in trunk and legs.
+float depthIn(const Body& body, const Clip& clip, std::uint32_t frame) {
+  const auto isLower = [](const std::string& name) {
+    return name.ends_with("LowerArm") || name.ends_with("Hand");
+  };
+  return depthIn(body, clip, frame, isLower,
+                 [&](const std::string& name) { return !isLower(name) && !name.ends_with("UpperArm"); });
+}
+
+// Of the left lower leg and foot in the right leg.
+float depthInLeg(const Body& body, const Clip& clip, std::uint32_t frame) {
+  const auto isLower = [](const std::string& name) {
+    return name.ends_with("LowerLeg") || name.ends_with("Foot") || name.ends_with("Toes");
+  };
+  return depthIn(
+      body, clip, frame, [&](const std::string& name) { return name.starts_with("left") && isLower(name); },
+      [&](const std::string& name) {
+        return name.starts_with("right") && (isLower(name) || name.ends_with("UpperLeg"));
+      });
 }
 
 vec3 handIn(const Body& body, const Clip& clip, std::uint32_t frame) {
@@ -63,8 +87,8 @@ vec3 handIn(const Body& body, const Clip& clip, std::uint32_t frame) {
   return vec3(pose.world[body.skeleton.find("leftHand").value][3]);
 }
 
-const ClearedArm& left(const std::vector<ClearedArm>& arms) {
-  const auto found = std::ranges::find(arms, "leftUpperArm", &ClearedArm::joint);
+const ClearedLimb& left(const std::vector<ClearedLimb>& arms) {
+  const auto found = std::ranges::find(arms, "leftUpperArm", &ClearedLimb::joint);
   REQUIRE(found != arms.end());
   return *found;
 }
@@ -75,10 +99,10 @@ TEST_CASE("clearance: an arm that is lowered through the hip stays beside it") {
   const Body body = person();
   Clip given = lowered(body, kThrough), clip = given;
   REQUIRE(depthIn(body, given, kFrames / 2) > 0.03f);
-  const auto told = left(keepArmsClear(body, {&clip, 1}));
+  const auto told = left(keepLimbsClear(body, {&clip, 1}));
   MESSAGE(told.frames << " frames, " << 1000 * told.before << " -> " << 1000 * told.after << " mm, "
                       << glm::degrees(told.turn) << " degrees");
-  CHECK(told.clip == "lowered");
+  CHECK(told.clip == "turned");
   CHECK(told.before == doctest::Approx(depthIn(body, given, kFrames / 2)).epsilon(0.3));
   CHECK(told.left == 0);
   CHECK(told.after <= kFleshGives);
@@ -102,7 +126,7 @@ TEST_CASE("clearance: what keeps clear is left as it is, to the bit") {
   const Body body = person();
   const Clip given = lowered(body, kClear);
   Clip clip = given;
-  for (const ClearedArm& arm : keepArmsClear(body, {&clip, 1})) {
+  for (const ClearedLimb& arm : keepLimbsClear(body, {&clip, 1})) {
     CHECK(arm.frames == 0);
     CHECK(arm.turn == 0);
   }
@@ -111,10 +135,38 @@ TEST_CASE("clearance: what keeps clear is left as it is, to the bit") {
   CHECK(clip.tracks[0].rotation.times == given.tracks[0].rotation.times);
 }
 
+TEST_CASE("clearance: a leg that swings through the other one goes by beside it, each of them by half") {
+  const Body body = person();
+  const Clip given = turned(body, "leftUpperLeg", 9);
+  Clip clip = given;
+  REQUIRE(depthInLeg(body, given, kFrames / 2) > 0.02f);
+  const auto told = keepLimbsClear(body, {&clip, 1});
+  REQUIRE_FALSE(told.empty());
+  const ClearedLimb& legs = told.front();
+  MESSAGE(legs.frames << " frames, " << 1000 * legs.before << " -> " << 1000 * legs.after << " mm, "
+                      << glm::degrees(legs.turn) << " degrees");
+  CHECK(legs.joint == "leftUpperLeg");
+  CHECK(legs.other == "rightUpperLeg");
+  CHECK(legs.left == 0);
+  CHECK(legs.turn > glm::radians(1.0f));
+  CHECK(legs.turn < glm::radians(12.0f));
+  for (std::uint32_t f = 0; f < kFrames; ++f) CHECK(depthInLeg(body, clip, f) <= 2 * kFleshGives);
+  const auto turnOf = [&](const char* joint) {
+    const JointId thigh = body.skeleton.find(joint);
+    const float time = given.timeOfFrame(kFrames / 2);
+    const quat before = rotationOf(samplePose(body.skeleton, given, time).world[thigh.value]);
+    return glm::angle(rotationOf(samplePose(body.skeleton, clip, time).world[thigh.value]) *
+                      glm::conjugate(before));
+  };
+  CHECK(turnOf("rightUpperLeg") == doctest::Approx(turnOf("leftUpperLeg")).epsilon(0.2));
+  const auto arms = std::ranges::count_if(told, [](const ClearedLimb& limb) { return limb.other.empty(); });
+  CHECK(arms == 2);
+}
+
 TEST_CASE("clearance: a way that no half radian clears is told") {
   const Body body = person();
   Clip clip = lowered(body, 120);
-  const auto told = left(keepArmsClear(body, {&clip, 1}));
+  const auto told = left(keepLimbsClear(body, {&clip, 1}));
   CHECK(told.left > 0);
   CHECK(told.after > kFleshGives);
   CHECK(told.turn < 0.51f);
@@ -129,7 +181,7 @@ TEST_CASE("clearance: a clip that goes round does so still") {
   std::rotate(turns.begin(), turns.begin() + kFrames / 2, turns.end());
   turns.push_back(turns.front());
   REQUIRE(closes(body.skeleton, clip));
-  CHECK(left(keepArmsClear(body, {&clip, 1})).left == 0);
+  CHECK(left(keepLimbsClear(body, {&clip, 1})).left == 0);
   CHECK(closes(body.skeleton, clip));
   CHECK(glm::distance(handIn(body, clip, 0), handIn(body, clip, kFrames - 2)) < 0.02f);
 }
@@ -138,8 +190,8 @@ TEST_CASE("clearance: a body without a skin, and one without arms, stay as they 
   Body bare = person();
   Clip clip = lowered(bare, kThrough);
   bare.meshes.clear();
-  CHECK(keepArmsClear(bare, {&clip, 1}).empty());
+  CHECK(keepLimbsClear(bare, {&clip, 1}).empty());
   Body nameless = person();
   for (auto& joint : nameless.skeleton.joints) joint.name = "joint", joint.parent = {};
-  CHECK(keepArmsClear(nameless, {&clip, 1}).empty());
+  CHECK(keepLimbsClear(nameless, {&clip, 1}).empty());
 }

@@ -3,17 +3,18 @@
 #include <vector>
 
 #include "body/body.h"
+#include "body/rig.h"
 #include "body/skin_shell.h"
 
 namespace vasa {
 
-/// A body's skin without its arms, as the boundary of the flesh that an arm should stay out of. It is looked
-/// up at rest: a place in a pose is taken back by each of the joints that the skin follows, and the skin that
-/// is nearest there counts where that joint moves it.
-class ArmlessFlesh {
+/// A body's skin without some limbs, as the boundary of the flesh that another limb should stay out of. It is
+/// looked up at rest: a place in a pose is taken back by each of the joints that the skin follows, and the
+/// skin that is nearest there counts where that joint moves it.
+class Flesh {
  public:
-  /// @param armJoints  one a joint: whether it is part of an arm
-  ArmlessFlesh(const Body& body, const SkinnedMesh& skin, const std::vector<char>& armJoints);
+  /// @param leftOut  one a joint: 1 where what follows it is none of the flesh
+  Flesh(const Body& body, const SkinnedMesh& skin, const std::vector<char>& leftOut);
 
   /// From a pose back to rest, as each of the joints moves the flesh.
   std::vector<mat4> toRest(const Pose& pose) const;
@@ -41,21 +42,26 @@ class ArmlessFlesh {
   std::vector<Host> hosts_;
 };
 
-/// Lower arm and hand as places on their skin, and the joint at the shoulder that moves all of them.
-struct ArmPlaces {
+/// A limb as places on its skin, and the joint at shoulder or hip that moves all of them: lower arm and hand;
+/// lower leg, foot and the half of the thigh at the knee (the other half touches the other thigh in most
+/// people).
+struct LimbPlaces {
   struct Place {
     uvec3 corners;  ///< of a triangle of the skin
     vec3 shares;
   };
-  JointId shoulder, other;  ///< other: of the other arm
+  JointId top, other;  ///< other: of the limb on the other side
   std::vector<Place> places;
   std::vector<float> atRest;  ///< [m] how deep each is in the flesh there
 
   std::vector<vec3> posed(const SkinnedMesh& skin, std::span<const mat4> skinMatrices) const;
 };
 
-/// The arms that are known by the joints' names or the skeleton's shape (body/rig.h).
-std::vector<ArmPlaces> armsOf(const Body& body, const SkinnedMesh& skin);
-std::vector<char> armJointsOf(const Body& body);
+/// Left and right; without those that the rig does not know (body/rig.h).
+std::vector<LimbPlaces> armPlaces(const Body& body, const SkinnedMesh& skin, const Rig& rig);
+std::vector<LimbPlaces> legPlaces(const Body& body, const SkinnedMesh& skin, const Rig& rig);
+
+/// One a joint: 1 where it hangs on one of these.
+std::vector<char> hangingOn(const Rig& rig, std::span<const LimbPlaces> limbs);
 
 }  // namespace vasa

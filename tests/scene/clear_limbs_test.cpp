@@ -27,13 +27,13 @@ Clip closeWalk() {
 
 }  // namespace
 
-TEST_CASE("the built-in human's clips keep arms and body apart") {
+TEST_CASE("the built-in human's clips keep arms, legs and body apart") {
   std::vector<Clip> clips = human().body.clips;
-  const auto told = keepArmsClear(human().body, clips);
-  CHECK(told.size() == 2 * clips.size());
-  for (const ClearedArm& arm : told) {
-    CAPTURE(arm.clip);
-    CHECK(arm.frames == 0);
+  const auto told = keepLimbsClear(human().body, clips);
+  CHECK(told.size() == 3 * clips.size());
+  for (const ClearedLimb& limb : told) {
+    CAPTURE(limb.clip);
+    CHECK(limb.frames == 0);
   }
 }
 
@@ -44,7 +44,7 @@ TEST_CASE("a scene's clip is cleared, unless it asks for the motion as recorded"
   const auto through = [&](const Clip& clip) {
     Clip copy = clip;
     std::uint32_t frames = 0;
-    for (const ClearedArm& arm : keepArmsClear(scene.body, {&copy, 1})) frames += arm.frames;
+    for (const ClearedLimb& arm : keepLimbsClear(scene.body, {&copy, 1})) frames += arm.frames;
     return frames;
   };
   REQUIRE(through(given.back()) > 5);
