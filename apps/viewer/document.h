@@ -44,7 +44,7 @@ struct Document {
   std::shared_ptr<const BodyLevels> levels;           ///< of the body's meshes
   std::shared_ptr<const Mannequin> mannequin;         ///< the body's skeleton as something to pose
   std::shared_ptr<const atlas::VesselGroups> groups;  ///< what its vessels belong to
-  std::vector<ClearedLimb> clearedLimbs;                ///< in its clips, by the clip's name
+  std::vector<ClearedLimb> clearedLimbs;              ///< in its clips, by the clip's name
   std::string title;
   Aabb bounds;  ///< at rest [m]
   /// What its own journal is replayed onto; its own: the last that the scene names, if that lies beside the
