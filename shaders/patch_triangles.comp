@@ -25,7 +25,8 @@ uvec3 triangleAt(uint triangle) {
 bool isSeen(uvec3 t) {
   if (push.keepAll != 0) return true;
   if (t.x == t.y) return false;  // a strip's room that is not used
-  return seenOfTriangle(placeAt(t.x), placeAt(t.y), placeAt(t.z), gridOf(view));
+  vec2 c = placeAt(t.z);
+  return (seenOfQuad(placeAt(t.x), placeAt(t.y), c, c, gridOf(view)) & 1u) != 0u;
 }
 
 void main() {

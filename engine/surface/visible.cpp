@@ -1,6 +1,5 @@
 #include "surface/visible.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -22,49 +21,51 @@ float cross2(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 
 // An edge from p, and how far the area that it spans with a sample may move as its ends do.
 struct Edge {
+  Edge(vec2 from, vec2 to, float snap)
+      : p(from), along(to - from), moved(snap * (std::abs(along.x) + std::abs(along.y))) {}
   vec2 p, along;
   float moved;
 };
 
-Edge edgeOf(vec2 p, vec2 q, float snap) {
-  return {p, q - p, snap * (std::abs(q.x - p.x) + std::abs(q.y - p.y))};
-}
-
-// Twice the areas of the edge with four samples: above 0 well beyond the edge of a front, as y points down.
-vec4 wellBeyond(const Edge& edge, vec2 first, vec2 span) {
-  const float at = cross2(edge.along, first - edge.p) - edge.moved;
+// Twice the areas that an edge spans with four samples: above 0 before the edge of a front, as y points down.
+vec4 areasWith(const Edge& edge, vec2 first, vec2 span) {
+  const float at = cross2(edge.along, first - edge.p);
   const float alongX = -edge.along.y * span.x, alongY = edge.along.x * span.y;
   return {at, at + alongX, at + alongY, at + alongX + alongY};
 }
 
-// @param low, high  of the box that holds the triangle, however its corners move
-bool mayCover(const std::array<Edge, 3>& edges, vec2 low, vec2 high, vec2 size, vec2 place) {
-  const vec2 first = glm::max(glm::ceil(low - place), vec2(0)),
-             last = glm::min(glm::floor(high - place), size - 1.0f);
-  const vec2 span = last - first, from = first + place;
-  if (span.x < 0 || span.y < 0) return false;
-  if (span.x > 1 || span.y > 1) return true;
-  // small: each of its samples is looked at
-  const vec4 outside = glm::max(glm::max(wellBeyond(edges[0], from, span), wellBeyond(edges[1], from, span)),
-                                wellBeyond(edges[2], from, span));
-  return std::min(std::min(outside.x, outside.y), std::min(outside.z, outside.w)) <= 0;
-}
-
-bool seenOfTriangle(vec2 a, vec2 b, vec2 c, const PictureGrid& grid) {
-  const vec2 low = glm::min(glm::min(a, b), c) - grid.snap, high = glm::max(glm::max(a, b), c) + grid.snap;
-  if (high.x >= 0.5f * shared::kBehind) return true;
-  const std::array<Edge, 3> edges{edgeOf(a, b, grid.snap), edgeOf(b, c, grid.snap), edgeOf(c, a, grid.snap)};
-  const vec2 reach = high - low;
-  if (cross2(edges[0].along, edges[1].along) > 4 * grid.snap * (reach.x + reach.y)) return false;
-  const std::span<const vec2> places = grid.samples == 1 ? std::span<const vec2>(kMiddle) : kStandardPlaces;
-  return std::ranges::any_of(places,
-                             [&](vec2 place) { return mayCover(edges, low, high, grid.size, place); });
+// Whether any of four samples lies behind three edges, or hardly before them.
+bool anyWithin(vec4 p, vec4 q, vec4 r, vec3 moved) {
+  for (int k = 0; k < 4; ++k)
+    if (p[k] <= moved.x && q[k] <= moved.y && r[k] <= moved.z) return true;
+  return false;
 }
 
 }  // namespace
 
 std::uint32_t seenOfQuad(vec2 a, vec2 b, vec2 c, vec2 d, const PictureGrid& grid) {
-  return (seenOfTriangle(a, b, c, grid) ? 1u : 0u) | (seenOfTriangle(a, c, d, grid) ? 2u : 0u);
+  const vec2 low = glm::min(glm::min(a, d), glm::min(b, c)) - grid.snap,
+             high = glm::max(glm::max(a, d), glm::max(b, c)) + grid.snap, reach = high - low;
+  if (high.x >= 0.5f * shared::kBehind) return 3;
+  const float backs = 4 * grid.snap * (reach.x + reach.y);
+  const Edge ab(a, b, grid.snap), bc(b, c, grid.snap), ac(a, c, grid.snap), cd(c, d, grid.snap),
+      da(d, a, grid.snap);
+  bool abc = false, acd = false;
+  for (const vec2 place : grid.samples == 1 ? std::span<const vec2>(kMiddle) : kStandardPlaces) {
+    const vec2 first = glm::max(glm::ceil(low - place), vec2(0)), from = first + place;
+    const vec2 span = glm::min(glm::floor(high - place), grid.size - 1.0f) - first;
+    if (span.x < 0 || span.y < 0) continue;
+    const bool large = span.x > 1 || span.y > 1;  // else each of its samples is looked at
+    const vec4 diagonal = areasWith(ac, from, span);
+    abc = abc || large ||
+          anyWithin(areasWith(ab, from, span), areasWith(bc, from, span), -diagonal,
+                    {ab.moved, bc.moved, ac.moved});
+    acd = acd || large ||
+          anyWithin(areasWith(cd, from, span), areasWith(da, from, span), diagonal,
+                    {cd.moved, da.moved, ac.moved});
+  }
+  const bool front = cross2(ab.along, bc.along) <= backs, frontToo = cross2(ac.along, cd.along) <= backs;
+  return (abc && front ? 1u : 0u) | (acd && frontToo ? 2u : 0u);
 }
 
 }  // namespace vasa

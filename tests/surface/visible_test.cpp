@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "shared/tubes.h"
@@ -77,6 +78,28 @@ TEST_CASE("a triangle that covers a sample wherever its corners are moved to is 
     }
     CHECK(covering > 4'000);
     CHECK(missed == 0);
+  }
+}
+
+TEST_CASE("both triangles of a quad are seen where they cover a sample, and few others") {
+  for (const std::uint32_t samples : {1u, 4u}) {
+    Chance chance;
+    int covering = 0, drawn = 0, missed = 0;
+    for (int i = 0; i < 100'000; ++i) {
+      const Corners t = someTriangle(chance);
+      const glm::dvec2 d = t[0] + (t[2] - t[1]) * chance(0.6, 1.4);
+      const std::uint32_t bits =
+          seenOfQuad(vec2(t[0]), vec2(t[1]), vec2(t[2]), vec2(d), {kSize, kSnap, samples});
+      for (const auto& [bit, triangle] : {std::pair(1u, t), std::pair(2u, Corners{t[0], t[2], d})}) {
+        const bool covers = coversAny(triangle, samples), isSeen = bits & bit;
+        covering += covers;
+        drawn += isSeen;
+        missed += covers && !isSeen;
+      }
+    }
+    CHECK(covering > 4'000);
+    CHECK(missed == 0);
+    CHECK(drawn < 1.4 * covering);
   }
 }
 
