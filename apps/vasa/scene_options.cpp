@@ -54,8 +54,9 @@ void addSceneOptions(CLI::App& sub, SceneOptions& options) {
   sub.add_option(
       "--joint-map", options.jointMap,
       "Which joint of the body follows which of a .bvh file: lines `motion's = body's` (default: by name)");
-  sub.add_flag("--as-recorded", options.asRecorded,
-               "Leave arms that pass through the body where the motion has them (default: turned out of it)");
+  sub.add_flag(
+      "--as-recorded", options.asRecorded,
+      "Leave arms and legs that pass through the body where the motion has them (default: turned out of it)");
 }
 
 namespace {
