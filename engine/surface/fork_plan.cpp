@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -314,14 +315,15 @@ class Planner {
     return false;
   }
 
+  // In the first manner that finds room; the last one, which needs the least, is asked before all.
   bool takeIn(std::uint32_t end) {
-    for (const std::uint32_t manner : kNarrower) {
+    const auto finds = [&](std::uint32_t manner) {
       trials_[end] = {};
       trials_[end].manner = manner;
       findExit(end);
-      if (forked(end) && hasRoom(end / 2) && fits(end / 2) && fits(leftBy(end).host)) return true;
-    }
-    return false;
+      return forked(end) && hasRoom(end / 2) && fits(end / 2) && fits(leftBy(end).host);
+    };
+    return finds(*std::rbegin(kNarrower)) && std::ranges::any_of(kNarrower, finds);
   }
 
   // Whether a branch starts where its host has not left its own host yet, within its radius of that one's
