@@ -14,9 +14,9 @@
 namespace vasa {
 namespace {
 
-constexpr float kMostTurn = 0.5f;      // [rad], see the header
-constexpr float kReachSeconds = 0.2f;  // to both sides, see the header
-constexpr float kBeyond = 0.001f;      // [m] taken out by more than is asked, so that steps end
+constexpr float kMostArmTurn = 0.5f, kMostLegTurn = 0.25f;  // [rad], see the header
+constexpr float kReachSeconds = 0.2f;                       // to both sides, see the header
+constexpr float kBeyond = 0.001f;  // [m] taken out by more than is asked, so that steps end
 constexpr float kLever =
     0.1f;  // [m] a limb shorter than this is turned by less than would do: no step is wild
 constexpr int kSteps = 20, kRounds = 4;
@@ -49,8 +49,9 @@ struct Deepest {
 
 class LimbClearing {
  public:
-  LimbClearing(const Body& body, const SkinnedMesh& skin, const Flesh& flesh, const LimbPlaces& limb)
-      : body_(body), skin_(skin), flesh_(flesh), limb_(limb) {}
+  LimbClearing(const Body& body, const SkinnedMesh& skin, const Flesh& flesh, const LimbPlaces& limb,
+               float mostTurn)
+      : body_(body), skin_(skin), flesh_(flesh), limb_(limb), mostTurn_(mostTurn) {}
 
   // @param share  of the turn that is made
   ClearedLimb run(Clip& clip, float share) {
@@ -132,7 +133,7 @@ class LimbClearing {
       const vec3 axis = glm::cross(at.place - stance.top, way == vec3(0) ? at.outwards : way);
       const float lever = std::max(glm::dot(axis, axis), kLever * kLever);
       turn = vectorOf(turnOf(axis * ((at.depth - kFleshGives + kBeyond) / lever)) * turnOf(turn));
-      if (const float angle = glm::length(turn); angle > kMostTurn) return turn * (kMostTurn / angle);
+      if (const float angle = glm::length(turn); angle > mostTurn_) return turn * (mostTurn_ / angle);
     }
     return turn;
   }
@@ -191,6 +192,7 @@ class LimbClearing {
   const SkinnedMesh& skin_;
   const Flesh& flesh_;
   const LimbPlaces& limb_;
+  float mostTurn_;
   std::vector<std::vector<float>> unturned_;  // one a frame
 };
 
@@ -224,11 +226,12 @@ std::vector<ClearedLimb> keepLimbsClear(const Body& body, std::span<Clip> clips)
     settle(legs[0], right);
     settle(legs[1], left);
     for (Clip* clip : looked) {
-      ClearedLimb& both = told.emplace_back(LimbClearing(body, *skin, right, legs[0]).run(*clip, 0.5f));
+      ClearedLimb& both =
+          told.emplace_back(LimbClearing(body, *skin, right, legs[0], kMostLegTurn).run(*clip, 0.5f));
       both.clip = clip->name;
       both.other = body.skeleton.joints[legs[1].top.value].name;
       if (both.frames == 0) continue;  // the right one keeps clear of the left one, then
-      const ClearedLimb second = LimbClearing(body, *skin, left, legs[1]).run(*clip, 1);
+      const ClearedLimb second = LimbClearing(body, *skin, left, legs[1], kMostLegTurn).run(*clip, 1);
       both.left = second.left;
       both.after = second.after;
       both.turn += second.turn;
@@ -240,7 +243,7 @@ std::vector<ClearedLimb> keepLimbsClear(const Body& body, std::span<Clip> clips)
   for (LimbPlaces& arm : arms) settle(arm, flesh);
   for (Clip* clip : looked)
     for (const LimbPlaces& arm : arms) {
-      told.push_back(LimbClearing(body, *skin, flesh, arm).run(*clip, 1));
+      told.push_back(LimbClearing(body, *skin, flesh, arm, kMostArmTurn).run(*clip, 1));
       told.back().clip = clip->name;
     }
   return told;

@@ -32,8 +32,9 @@ constexpr std::uint32_t kMostClearedFrames = 36'000;  ///< twenty minutes of 30 
 /// there from the space of each joint that the body's skin follows, where that joint moved it most. Newton's
 /// steps out of the deepest place, frame by frame; then the greatest turn of all frames near by, averaged.
 /// Clips that keep clear are left as they are, to the bit, as are bodies without a skin or without limbs
-/// known by name or shape. A turn of more than half a radian is not made: an arm that goes right through a
-/// trunk is no motion of this body. Clips of more than kMostClearedFrames are not looked at.
+/// known by name or shape. A turn of more than half a radian (of legs, a quarter) is not made: an arm that
+/// goes right through a trunk is no motion of this body. Clips of more than kMostClearedFrames are not looked
+/// at.
 ///
 ///   for (const ClearedLimb& limb : keepLimbsClear(body, {&clip, 1})) ...
 ///

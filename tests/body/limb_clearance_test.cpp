@@ -163,13 +163,17 @@ TEST_CASE("clearance: a leg that swings through the other one goes by beside it,
   CHECK(arms == 2);
 }
 
-TEST_CASE("clearance: a way that no half radian clears is told") {
+TEST_CASE("clearance: a way that no turn clears is told") {
   const Body body = person();
   Clip clip = lowered(body, 120);
   const auto told = left(keepLimbsClear(body, {&clip, 1}));
   CHECK(told.left > 0);
   CHECK(told.after > kFleshGives);
   CHECK(told.turn < 0.51f);
+  Clip crossed = turned(body, "leftUpperLeg", 40);
+  const ClearedLimb legs = keepLimbsClear(body, {&crossed, 1}).front();
+  CHECK(legs.left > 0);
+  CHECK(legs.turn < 0.51f);  // a quarter each at most
 }
 
 TEST_CASE("clearance: a clip that goes round does so still") {
