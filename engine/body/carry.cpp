@@ -118,6 +118,24 @@ float linksLength(const Skeleton& skeleton, const Skeleton& from, std::span<cons
   return float(sum);
 }
 
+// How far the skin of a joint and of what hangs on it reaches from the joint [m].
+float skinReach(const Body& body, std::size_t joint) {
+  std::vector<bool> own(body.skeleton.joints.size());
+  for (std::size_t j = joint; j < own.size(); ++j) {
+    const JointId parent = body.skeleton.joints[j].parent;
+    own[j] = j == joint || (parent.valid() && own[parent.value]);
+  }
+  float reach = 0;
+  for (const SkinnedMesh& skinned : body.meshes) {
+    const TriangleMesh mesh = meshAtRest(body, skinned);
+    for (const uvec3& triangle : mesh.triangles)
+      for (int k = 0; k < 3; ++k)
+        if (const SkinInfluence& by = skinned.influences[triangle[k]]; own[by.joints[by.heaviest()]])
+          reach = std::max(reach, glm::distance(mesh.positions[triangle[k]], centreIn(body.skeleton, joint)));
+  }
+  return reach;
+}
+
 // x -> target + linear (x - centre)
 struct Stretch {
   vec3 centre{0}, target{0};
@@ -134,6 +152,8 @@ mat3 turnAndStretch(vec3 from, vec3 to, float across) {
   if (cosine < -0.99f) return stretch;
   return mat3_cast(glm::normalize(quat(1 + cosine, glm::cross(a, b)))) * stretch;
 }
+
+constexpr float kWholeLimb = 0.75f;  // of the other body's limb; what is shorter is a stump
 
 class Carrier {
  public:
@@ -187,7 +207,16 @@ class Carrier {
   void findMissing() {
     const HumanoidNames parts = partsOf(from_.skeleton);
     missing_.assign(match_.size(), false);
-    const auto look = [&](const std::string& limb, std::initializer_list<std::string> told) {
+    const float size = linksLength(to_.skeleton, from_.skeleton, match_, true) /
+                       std::max(linksLength(from_.skeleton, from_.skeleton, match_, false), 1e-6f);
+    // Without joints of its own a limb may be there all the same, moved by its upper part's alone.
+    const auto isOfOneBone = [&](const std::string& upper) {
+      const auto part = std::size_t(std::ranges::find(parts.of, upper) - parts.of.begin());
+      return part < match_.size() && match_[part] != kNone &&
+             skinReach(to_, match_[part]) > kWholeLimb * size * skinReach(from_, part);
+    };
+    const auto look = [&](const std::string& limb, const std::string& upper,
+                          std::initializer_list<std::string> told) {
       bool known = false;
       std::vector<bool> own(match_.size());
       for (std::size_t j = 0; j < match_.size(); ++j) {
@@ -198,14 +227,14 @@ class Carrier {
         }
         own[j] = own[j] || (parent.valid() && own[parent.value]);
       }
-      if (!known) return;
+      if (!known || isOfOneBone(upper)) return;
       out_.limbsMissing.push_back(limb);
       for (std::size_t j = 0; j < own.size(); ++j) missing_[j] = missing_[j] || own[j];
     };
-    look("head", {"neck", "head"});
+    look("head", "neck", {"neck", "head"});
     for (const std::string side : {"left", "right"}) {
-      look(side + " arm", {side + "LowerArm", side + "Hand"});
-      look(side + " leg", {side + "LowerLeg", side + "Foot"});
+      look(side + " arm", side + "UpperArm", {side + "LowerArm", side + "Hand"});
+      look(side + " leg", side + "UpperLeg", {side + "LowerLeg", side + "Foot"});
     }
   }
 

@@ -94,6 +94,11 @@ TEST_CASE("vessels of a limb that the other body lacks are named") {
   for (auto& joint : to.skeleton.joints)  // no part by its name, and none by shape
     if (joint.name == "leftLowerLeg" || joint.name == "leftFoot" || joint.name == "leftToes")
       joint.name = "prop";
+  const Body ofOneBone = to;  // the skin is all there
+  for (SkinnedMesh& skin : to.meshes)
+    std::erase_if(skin.mesh.triangles, [&](const uvec3& t) {
+      return skin.mesh.positions[t.x].x > 0 && skin.mesh.positions[t.x].y < 0.5f;
+    });
   NetworkBuilder builder;
   for (const float side : {1.0f, -1.0f})
     builder.addVessel({side > 0 ? "left tibial artery" : "right tibial artery"},
@@ -105,6 +110,10 @@ TEST_CASE("vessels of a limb that the other body lacks are named") {
   if (!carried.ok()) FAIL(carried.error().message);
   CHECK(carried->limbsMissing == std::vector<std::string>{"left leg"});
   CHECK(carried->vesselsPressed == std::vector<std::string>{"left tibial artery"});
+  const auto stiff = carryNetwork(*network, from, ofOneBone, "a.vasa");
+  if (!stiff.ok()) FAIL(stiff.error().message);
+  CHECK(stiff->limbsMissing.empty());
+  CHECK(worstAway(stiff->points, network->points()) < 0.01f);
   const auto whole = carryNetwork(*network, from, from, "a.vasa");
   REQUIRE(whole.ok());
   CHECK(whole->limbsMissing.empty());
