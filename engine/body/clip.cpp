@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "body/clip_end.h"
+
 // Interpolation as in glTF 2.0, appendix C. Cubic: with u in [0, 1] between keys k and k + 1, d seconds
 // apart, p = (2u³-3u²+1) v_k + d (u³-2u²+u) b_k + (-2u³+3u²) v_{k+1} + d (u³-u²) a_{k+1}, a and b the in- and
 // out-tangents.
@@ -49,12 +51,29 @@ T sample(const Track<T>& track, float time, T rest) {
   return finished(between(track.values[key], track.values[key + 1], u));
 }
 
+// What is scaled to nothing, as games hide things, has no way back to rest: a thousandth of that stays.
+vec3 withExtent(vec3 scale, vec3 rest) {
+  constexpr float kLeast = 1e-3f;
+  for (int k = 0; k < 3; ++k)
+    if (const float least = kLeast * std::abs(rest[k]); std::abs(scale[k]) < least)
+      scale[k] = std::copysign(least, scale[k]);
+  return scale;
+}
+
 }  // namespace
+
+double likelyRate(double told) {
+  double rate = std::round(told);
+  for (const double whole : {24.0, 30.0, 60.0, 120.0})
+    if (const double ntsc = whole * 1000 / 1001; std::abs(told - ntsc) < 0.3 * std::abs(told - rate))
+      rate = ntsc;
+  return std::abs(told - rate) <= 0.005 * told ? rate : told;
+}
 
 std::uint32_t Clip::frameCount() const {
   const float frames = std::min((end - start) * framesPerSecond, 1e9f);
   // The last key falls on the last frame although both times are rounded.
-  return frames > 0 ? std::uint32_t(std::floor(frames + 0.01f)) + 1 : 1;
+  return frames > 0 ? std::uint32_t(std::floor(frames + kKeyRounding)) + 1 : 1;
 }
 
 void samplePose(const Skeleton& skeleton, const Clip& clip, float time, Pose& pose) {
@@ -65,7 +84,7 @@ void samplePose(const Skeleton& skeleton, const Clip& clip, float time, Pose& po
     JointTransform& transform = local[tracks.joint.value];
     transform.translation = sample(tracks.translation, time, transform.translation);
     transform.rotation = sample(tracks.rotation, time, transform.rotation);
-    transform.scale = sample(tracks.scale, time, transform.scale);
+    transform.scale = withExtent(sample(tracks.scale, time, transform.scale), transform.scale);
   }
   poseFromLocal(skeleton, local, pose);
 }
@@ -80,7 +99,7 @@ bool closes(const Skeleton& skeleton, const Clip& clip) {
   constexpr float kSamePlace = 1e-3f;  // [m] and of an axis
   const std::uint32_t last = clip.frameCount() - 1;
   const Pose a = samplePose(skeleton, clip, clip.timeOfFrame(0)),
-             b = samplePose(skeleton, clip, clip.timeOfFrame(last));
+             b = samplePose(skeleton, clip, endsOnFrame(clip) ? clip.timeOfFrame(last) : clip.end);
   for (std::size_t j = 0; j < a.world.size(); ++j)
     for (int k = 0; k < 4; ++k)
       if (glm::distance(a.world[j][k], b.world[j][k]) > kSamePlace) return false;

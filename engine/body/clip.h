@@ -24,6 +24,11 @@ struct JointTracks {
   Track<vec3> scale;
 };
 
+/// Frames a second that a file means by those that follow from its times: the nearest whole number, or 24,
+/// 30, 60 or 120 thousand a thousand and one (film and NTSC) where these are nearer; as told where it lies
+/// farther than half a hundredth from any.
+double likelyRate(double told);
+
 /// A motion: what each of its joints does over time; other joints stay at rest.
 struct Clip {
   std::string name;
@@ -37,7 +42,8 @@ struct Clip {
   float timeOfFrame(std::uint32_t frame) const { return start + float(frame) / framesPerSecond; }
 };
 
-/// The skeleton's pose at a time; before the first key and after the last the nearest key holds.
+/// The skeleton's pose at a time; before the first key and after the last the nearest key holds. Scales of
+/// less than a thousandth of rest's are that.
 Pose samplePose(const Skeleton& skeleton, const Clip& clip, float time);
 void samplePose(const Skeleton& skeleton, const Clip& clip, float time, Pose& pose);
 

@@ -1,7 +1,9 @@
 #include "io/bvh.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "body/clip.h"
 #include "core/atomic_file.h"
 #include "core/letters.h"
 #include "core/log.h"
@@ -177,10 +179,8 @@ class Parser {
     if (seconds > kLongestFrame)
       breaks("the frame time of " + numberText(seconds) +
              " s is longer than a second; it is in seconds, not milliseconds: write " +
-             numberText(seconds / 1000) + " if it was meant as those");
-    const double rate = 1 / seconds;
-    motion_.framesPerSecond =
-        float(std::abs(rate - std::round(rate)) < 0.005 * rate && rate >= 1 ? std::round(rate) : rate);
+             numberText(std::round(1e4 * seconds) / 1e7) + " if it was meant as those");
+    motion_.framesPerSecond = float(likelyRate(1 / seconds));
     const std::size_t total = motion_.frameCount * motion_.joints.size();
     // A value is two bytes of text at least: what is promised but not there costs no memory.
     for (const auto& channels : channels_) perFrame_ += channels.size();

@@ -139,8 +139,7 @@ float framesPerSecondOf(const std::vector<float>& times) {
   const auto regular = std::count_if(steps.begin(), steps.end(),
                                      [&](float step) { return std::abs(step - median) <= tolerance; });
   if (std::size_t(regular) * 10 < steps.size() * 9) return kDefault;
-  const float told = 1 / median;
-  const float rate = std::abs(told - std::round(told)) <= 0.005f * told ? std::round(told) : told;
+  const auto rate = float(likelyRate(1 / double(median)));
   return rate >= 10 && rate <= 240 ? rate : kDefault;
 }
 

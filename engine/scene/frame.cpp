@@ -4,8 +4,10 @@
 #include <cmath>
 #include <utility>
 
+#include "body/clip_end.h"
 #include "core/cancellation.h"
 #include "core/clock.h"
+#include "core/log.h"
 #include "surface/sweep_table.h"
 
 namespace vasa {
@@ -24,9 +26,10 @@ constexpr float kShortestStep = 0.5f;
 // ones bring, and what is caught starts anew in the end anyhow. 32 degrees without a gap between limbs are no
 // passing touch.
 constexpr int kCaught = 4;
-constexpr float kStepSeconds = 0.1f;  // of the way from rest to a clip's beginning
-constexpr std::uint32_t kRunUp = 15;  // frames before the seam with which a closed clip begins
-constexpr float kOnFrame = 1e-3f;     // of a frame: a time so near is the frame's
+constexpr float kStepSeconds = 0.1f;      // of the way from rest to a clip's beginning
+constexpr std::uint32_t kRunUp = 15;      // frames before the seam with which a closed clip begins
+constexpr std::uint32_t kLongWay = 1000;  // frames: some seconds for a few vessels, minutes for a body's
+constexpr float kOnFrame = 1e-3f;         // of a frame: a time so near is the frame's
 
 }  // namespace
 
@@ -66,14 +69,21 @@ void FrameMaker::make(const Clip* clip, float time) {
     return;
   }
   report_ = {};
+  const float rate = clip->framesPerSecond;
+  const std::uint32_t last = clip->frameCount() - 1;
   const float place =
-      std::clamp((time - clip->start) * clip->framesPerSecond, 0.0f, float(clip->frameCount() - 1));
-  const auto frame = std::uint32_t(place + kOnFrame);
+      std::clamp((time - clip->start) * rate, 0.0f, std::max((clip->end - clip->start) * rate, float(last)));
+  const std::uint32_t frame = std::min(std::uint32_t(place + kOnFrame), last);
   const float beyond = place - float(frame);
-  const bool isBetween = beyond > kOnFrame;
+  const bool isBetween = beyond > kOnFrame && frame < last;
   if (track_->isOf(*clip) && frame < track_->first()) begin(*clip);  // both are needed
   goTo(*clip, frame + isBetween);
   if (isBetween) goBetween(*clip, frame, beyond, time);
+  if (frame == last && beyond > kOnFrame && !endsOnFrame(*clip)) {
+    at_.reset();
+    samplePose(scene_->body.skeleton, *clip, time, target_);
+    walk(target_, clip->timeOfFrame(last), time, beyond / rate);
+  }
   finish();
 }
 
@@ -185,10 +195,12 @@ void FrameMaker::begin(const Clip& clip) {
   samplePose(skeleton, clip, clip.timeOfFrame(frame), target_);
   make(target_, clip.timeOfFrame(frame));
   // The seam is where the last pose is nearly the first one: frame 0 has the first, to the bit.
-  while (round && ++frame <= last) {
-    const float time = clip.timeOfFrame(frame < last ? frame : 0);
+  const std::uint32_t seam = endsOnFrame(clip) ? last : last + 1;
+  while (round && ++frame <= seam) {
+    const float time = clip.timeOfFrame(frame < seam ? frame : 0);
     samplePose(skeleton, clip, time, target_);
-    walk(target_, clip.timeOfFrame(frame - 1), time, 1 / clip.framesPerSecond);
+    walk(target_, clip.timeOfFrame(frame - 1), time,
+         frame <= last ? 1 / clip.framesPerSecond : clip.end - clip.timeOfFrame(last));
   }
   track_->restart(clip, avoider_->correction());
   at_ = 0;
@@ -206,6 +218,9 @@ void FrameMaker::resume(const Clip& clip, std::uint32_t frame) {
 void FrameMaker::goTo(const Clip& clip, std::uint32_t frame) {
   if (!track_->isOf(clip) || frame < track_->first()) begin(clip);
   const std::uint32_t known = track_->end() - 1;
+  if (frame > known + kLongWay)
+    logInfo(clip.name + ": frame " + std::to_string(frame) + " follows from those before it, of which " +
+            std::to_string(frame - known) + " are solved first");
   if (at_ != std::min(known, frame)) resume(clip, std::min(known, frame));
   for (std::uint32_t next = known + 1; next <= frame; ++next) {
     report_ = {};

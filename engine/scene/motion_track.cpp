@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "body/clip_end.h"
 #include "core/atomic_file.h"
 #include "core/bytes.h"
 #include "core/hash.h"
@@ -89,8 +90,9 @@ std::uint64_t trackKey(const Scene& scene, const Clip& clip, const FrameOptions&
   for (const Skeleton::Joint& joint : scene.body.skeleton.joints)
     hash = hashed(joint.inverseBind, hashed(joint.parent.value, hash));
   for (const VesselHold& hold : scene.holds) hash = hashed(hold.at, hashOf(std::span(hold.vessel), hash));
-  for (std::uint32_t frame = 0; frame < clip.frameCount(); ++frame) {
-    const Pose pose = samplePose(scene.body.skeleton, clip, clip.timeOfFrame(frame));
+  const std::uint32_t samples = clip.frameCount() + !endsOnFrame(clip);
+  for (std::uint32_t frame = 0; frame < samples; ++frame) {
+    const Pose pose = samplePose(scene.body.skeleton, clip, clip.timeOfFrame(frame));  // the last key's holds
     hash = hashOf(std::span(std::as_const(pose.world)), hash);
   }
   hash = hashed(std::array{clip.start, clip.end, clip.framesPerSecond, options.avoidance.bending}, hash);

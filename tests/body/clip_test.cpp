@@ -1,4 +1,4 @@
-#include "body/clip.h"
+#include "body/clip_end.h"
 
 #include <doctest/doctest.h>
 
@@ -102,6 +102,28 @@ TEST_CASE("what a clip does not move stays at rest") {
   const Clip clip = turning({Interpolation::linear, {0, 1}, {aboutZ(0), aboutZ(1)}});
   CHECK(placeAt(clip, 0.5f) == vec3(0, 0, 7));
   CHECK(placeAt(Clip{}, 0.5f) == vec3(0, 0, 7));
+}
+
+TEST_CASE("a clip goes round by its last pose, also where that lies between two frames") {
+  Clip clip = moving({Interpolation::linear, {0, 0.5f, 1}, {{0, 0, 0}, {1, 0, 0}, {0, 0, 0}}});
+  clip.framesPerSecond = 10;
+  CHECK(endsOnFrame(clip));
+  CHECK(closes(oneJoint(), clip));
+  clip.framesPerSecond = 10.4f;
+  CHECK(clip.frameCount() == 11);
+  CHECK(!endsOnFrame(clip));
+  CHECK(closes(oneJoint(), clip));
+}
+
+TEST_CASE("what a clip scales to nothing keeps a thousandth, so that there is a way back") {
+  Clip clip;
+  clip.end = 2;
+  clip.tracks.push_back(
+      {JointId{0}, {}, {}, {Interpolation::linear, {0, 2}, {vec3(1, 1, 1), vec3(0, -1, 1)}}});
+  const mat4 pose = samplePose(oneJoint(), clip, 2).world[0];
+  CHECK(glm::length(vec3(pose[0])) == doctest::Approx(1e-3f));
+  CHECK(pose[1].y == -1);
+  CHECK(std::abs(glm::determinant(mat3(samplePose(oneJoint(), clip, 1).world[0]))) > 1e-9f);
 }
 
 TEST_CASE("children follow their parents") {

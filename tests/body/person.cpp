@@ -200,17 +200,17 @@ std::string personGlb(const PersonFile& odd) {
   file.add("scenes", {{"nodes", roots}});
   file.document["scene"] = 0;
   const vec3 hips = joints[0].rest.translation;
-  constexpr int kFrames = 60;  // at 30 a second
+  constexpr int kFrames = 60;  // of two seconds at 30 a second
   std::vector<float> moments, places, turns;
   for (int i = 0; i <= kFrames; ++i) {
     const float t = float(i) / kFrames, half = 0.3f * std::sin(kPi * t);
-    moments.push_back(2 * t);
+    moments.push_back(odd.seconds * t);
     places.insert(places.end(), {hips.x, hips.y, hips.z + odd.unitsAMetre * t});
     turns.insert(turns.end(), {std::sin(half), 0, 0, std::cos(half)});
   }
   const int times = file.floats(moments, "SCALAR");
   file.document["accessors"][std::size_t(times)]["min"] = {0};
-  file.document["accessors"][std::size_t(times)]["max"] = {2};
+  file.document["accessors"][std::size_t(times)]["max"] = {odd.seconds};
   const int way = file.floats(places, "VEC3"), bend = file.floats(turns, "VEC4");
   const std::uint32_t chest = body.skeleton.find("chest").value;
   file.add("animations",
@@ -219,6 +219,13 @@ std::string personGlb(const PersonFile& odd) {
             {"channels",
              {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}},
               {{"sampler", 1}, {"target", {{"node", chest}, {"path", "rotation"}}}}}}});
+  if (odd.vanishes) {
+    std::vector<float> sizes;
+    for (int i = 0; i <= kFrames; ++i) sizes.insert(sizes.end(), 3, 1 - float(i) / kFrames);
+    auto& walk = file.document["animations"][0];
+    walk["samplers"].push_back({{"input", times}, {"output", file.floats(sizes, "VEC3")}});
+    walk["channels"].push_back({{"sampler", 2}, {"target", {{"node", chest}, {"path", "scale"}}}});
+  }
   return file.glb();
 }
 

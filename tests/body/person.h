@@ -26,11 +26,13 @@ struct PersonFile {
   bool eyes = false;   ///< a second primitive of 64 vertices, bound to neck and head
   bool stuck = false;  ///< all of the skin is bound to a joint that no clip moves, beside the hips
   float unitsAMetre = 1;
-  bool jumps = false;  ///< the nodes are saved in the middle of a jump, arms raised
-  bool half = false;   ///< the skin's left half alone: a mirror that was not applied
+  bool jumps = false;     ///< the nodes are saved in the middle of a jump, arms raised
+  float seconds = 2;      ///< that its clip takes
+  bool vanishes = false;  ///< its clip scales the chest to nothing
+  bool half = false;      ///< the skin's left half alone: a mirror that was not applied
 };
 
-/// Written as a .glb, with a clip "walk" of two seconds in which the hips go a metre forward and the chest
+/// Written as a .glb, with a clip "walk" in which the hips go a metre forward and the chest
 /// bends.
 std::string personGlb(const PersonFile& file = {});
 

@@ -44,6 +44,25 @@ TEST_CASE("BVH: hierarchy, places, rotations in the order of the channels") {
   CHECK(glm::distance(motion->rotation(1, 1) * vec3(0, 0, 1), vec3(1, 0, 0)) < 1e-6f);
 }
 
+TEST_CASE("frame times that are rounded mean whole rates, those of film and NTSC their own") {
+  const auto rateOf = [](const char* seconds) {
+    const auto motion =
+        parseBvh(kHierarchy + "MOTION\nFrames: 1\nFrame Time: " + seconds + "\n1 2 3 0 0 0 0 0 0\n", "a.bvh");
+    REQUIRE(motion.ok());
+    return double(motion->framesPerSecond);
+  };
+  for (const auto& [seconds, rate] : {std::pair(".0333333", 30.0),
+                                      {".0333", 30.0},
+                                      {".00833", 120.0},
+                                      {".041667", 24.0},
+                                      {".04", 25.0},
+                                      {".0333667", 29.97003},
+                                      {".0417083", 23.97602},
+                                      {".0041667", 240.0},
+                                      {".7", 1 / 0.7}})
+    CHECK_MESSAGE(rateOf(seconds) == doctest::Approx(rate).epsilon(1e-6), seconds);
+}
+
 TEST_CASE("keywords and channels in any case") {
   std::string text = kHierarchy + "MOTION\nFrames: 1\nFrame Time: .1\n1 2 3 0 0 0 0 0 0\n";
   for (char& c : text) c = char(std::toupper(static_cast<unsigned char>(c)));

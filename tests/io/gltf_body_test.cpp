@@ -420,11 +420,12 @@ TEST_CASE("rigid pieces that hang on one another as a person's limbs are a body;
 }
 
 TEST_CASE("a clip's rate is that of its keys, up to 240 a second") {
-  const auto rateOf = [](int rate) {
+  const auto rateOf = [](double rate) {
     std::vector<float> times;
-    for (int i = 0; i < 3 * rate; ++i) times.push_back(float(i) / float(rate));
+    for (int i = 0; i < 3 * rate; ++i) times.push_back(float(double(i) / rate));
     return gltf::framesPerSecondOf(times);
   };
   for (const int rate : {10, 24, 25, 30, 50, 60, 100, 120, 240}) CHECK(rateOf(rate) == float(rate));
   for (const int rate : {5, 500}) CHECK(rateOf(rate) == 30);
+  CHECK(rateOf(30'000 / 1001.0) == doctest::Approx(29.97003f));
 }

@@ -66,6 +66,22 @@ TEST_CASE("a track that was written and read gives the same frames to the byte")
   CHECK(std::ranges::equal(maker.points(), other.points()));
 }
 
+TEST_CASE("a clip that ends between two frames goes on to its end, whatever was made before") {
+  Clip clip = clipNamed("walk");
+  clip.end = clip.timeOfFrame(2) + 0.6f / clip.framesPerSecond;
+  REQUIRE(clip.frameCount() == 3);
+  FrameMaker straight(human(), {.avoid = true}), jumped(human(), {.avoid = true});
+  straight.make(&clip, clip.timeOfFrame(2));
+  const std::vector<vec4> last(straight.points().begin(), straight.points().end());
+  straight.make(&clip, clip.end);
+  CHECK(straight.pose().world == samplePose(human().body.skeleton, clip, clip.end).world);
+  CHECK(!std::ranges::equal(straight.points(), last));
+  jumped.make(&clip, clip.end);
+  CHECK(std::ranges::equal(jumped.points(), straight.points()));
+  jumped.make(&clip, clip.timeOfFrame(2));
+  CHECK(std::ranges::equal(jumped.points(), last));
+}
+
 TEST_CASE("a track holds what moves, and only the latest two frames where that is asked for") {
   const Clip& clip = clipNamed("walk");
   const auto latest = std::make_shared<MotionTrack>(MotionTrack::Keeps::latest);
