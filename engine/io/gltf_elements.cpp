@@ -4,6 +4,7 @@
 
 #include "body/skinning.h"
 #include "core/ids.h"
+#include "io/colour_runs.h"
 #include "io/gltf_accessor.h"
 #include "io/gltf_body.h"
 #include "io/gltf_rule.h"
@@ -77,11 +78,9 @@ std::vector<vec3> coloursOf(const Asset& asset, const Model::Primitive& primitiv
   return colours;
 }
 
-// What the triangles from `first` on are drawn with, a primitive's: its material, or where its vertices have
-// few colours, a run each. Shading by vertices says nothing of what is drawn but its mean.
+// What the triangles from `first` on are drawn with, a primitive's: its material, or its vertices' colours.
 void addMaterials(const Asset& asset, const Model::Primitive& primitive, const TriangleMesh& mesh,
                   std::size_t firstVertex, std::uint32_t first, std::vector<MeshMaterial>& materials) {
-  constexpr std::size_t kMostRuns = 64;
   MeshMaterial own{{}, {}, first};
   if (primitive.material >= 0) {
     const auto& told = asset.model.materials[std::size_t(primitive.material)];
@@ -92,20 +91,7 @@ void addMaterials(const Asset& asset, const Model::Primitive& primitive, const T
     return materials.push_back(std::move(own));  // nothing is drawn with them
   const std::vector<vec3> colours = coloursOf(asset, primitive);
   if (colours.empty()) return materials.push_back(std::move(own));
-  const vec3 base = own.colour.value_or(vec3(1));
-  const std::size_t before = materials.size();
-  vec3 last(-1), sum(0);
-  for (std::uint32_t t = first; t < mesh.triangles.size(); ++t) {
-    const vec3 colour = colours[mesh.triangles[t].x - firstVertex];
-    sum += colour;
-    if (colour == last || materials.size() - before > kMostRuns) continue;
-    materials.push_back({own.name, base * colour, t});
-    last = colour;
-  }
-  if (materials.size() - before <= kMostRuns) return;
-  materials.resize(before);
-  own.colour = base * sum / float(mesh.triangles.size() - first);
-  materials.push_back(std::move(own));
+  addColourRuns(mesh, first, colours, firstVertex, own, materials);
 }
 
 std::optional<vec3> colourTold(std::span<const MeshMaterial> materials) {

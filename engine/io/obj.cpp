@@ -1,12 +1,14 @@
 #include "io/obj.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "core/atomic_file.h"
 #include "core/cancellation.h"
 #include "core/ids.h"
 #include "core/text_file.h"
+#include "io/colour_runs.h"
 #include "io/words.h"
 #include "mesh/polygon.h"
 
@@ -115,7 +117,20 @@ class ObjReader {
                         " is farther than 1000 km away; give the file's unit with vasa convert --unit");
     }
     positions_.push_back(frame_.toHouse(place));
+    colour(line);
     return {};
+  }
+
+  // Red, green and blue behind the place, as MeshLab and Blender write them; they count where all vertices
+  // have them. Two kinds of vessel in one object are told by nothing else.
+  void colour(std::string_view rest) {
+    vec3 linear;
+    for (int k = 0; k < 3; ++k) {
+      double value = 0;
+      if (!parseNumber(nextWord(rest), value) || value < 0 || value > 1) return;
+      linear[k] = std::pow(float(value), 2.2f);
+    }
+    if (colours_.size() + 1 == positions_.size()) colours_.push_back(linear);
   }
 
   static std::string_view restOf(std::string_view line) {
@@ -181,6 +196,7 @@ class ObjReader {
     for (Object& object : objects_) {
       MeshElement element{object.name.empty() ? path_.stem().string() : std::move(object.name), {}, {}, {}};
       takeFaces(object.runs, element);
+      element.colour = element.materials.empty() ? std::nullopt : element.materials.front().colour;
       if (!object.material.empty()) element.surroundings.push_back(std::move(object.material));
       if (!element.mesh.empty()) elements.push_back(std::move(element));
     }
@@ -201,6 +217,13 @@ class ObjReader {
           element.materials.push_back({material->name, {}, std::uint32_t(mesh.triangles.size())});
         addFace(cornersOf(face), mesh);
       }
+    }
+    if (colours_.size() == positions_.size() && element.materials.size() <= 1 && !mesh.empty()) {
+      const MeshMaterial own = element.materials.empty() ? MeshMaterial{} : element.materials.front();
+      std::vector<vec3> colours;
+      for (const std::uint32_t vertex : used_) colours.push_back(colours_[vertex]);
+      element.materials.clear();
+      addColourRuns(mesh, 0, colours, 0, own, element.materials);
     }
     for (const std::uint32_t vertex : used_) numbers_[vertex] = kNone;
   }
@@ -229,6 +252,7 @@ class ObjReader {
   ImportFrame frame_;
   std::size_t line_ = 0;
   std::vector<vec3> positions_;
+  std::vector<vec3> colours_;  // linear, of as many of the first vertices as have one
   std::vector<std::uint32_t> corners_;
   std::vector<Face> faces_;
   std::vector<Object> objects_;

@@ -12,7 +12,8 @@ namespace vasa {
 /// The objects and groups of a Wavefront OBJ file that have faces, in the file's order; polygons are cut into
 /// triangles (mesh/polygon.h). A group that is named again within its object goes on; a backslash at its end
 /// joins a line to the next. Each element holds the vertices its faces use, in the file's order; nothing is
-/// welded. An element without a name takes the file's. Materials are told by name; normals, texture
+/// welded. An element without a name takes the file's. Materials are told by name, and by the colours
+/// of vertices where all have one; normals, texture
 /// coordinates, lines and curves are passed over; nothing but the file itself is opened. Fails with badInput,
 /// naming file and line: a vertex that is not three finite numbers or lies too far away, a face with fewer
 /// than three or more than 512 corners or an index outside the vertices, more than 100,000 objects and one

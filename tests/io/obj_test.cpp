@@ -155,3 +155,25 @@ TEST_CASE("which of an element's triangles have which material is told, in the o
   REQUIRE((*elements)[1].materials.size() == 1);
   CHECK((*elements)[1].materials[0].name == "blue");
 }
+
+TEST_CASE("colours of vertices tell what an object is drawn with, where all have one") {
+  const auto coloursOf = [](const char* text) {
+    const auto elements = parseObj(text, "a.obj");
+    REQUIRE(elements.ok());
+    std::vector<MeshMaterial> materials = (*elements)[0].materials;
+    if (!materials.empty()) CHECK((*elements)[0].colour == materials[0].colour);
+    return materials;
+  };
+  const std::string red = "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\n",
+                    blue = "v 0 0 1 0 0 1\nv 1 0 1 0 0 1\nv 0 1 1 0 0 1\n", faces = "f 1 2 3\nf 4 5 6\n";
+  const auto both = coloursOf((red + blue + faces).c_str());
+  REQUIRE(both.size() == 2);
+  CHECK(both[0].colour == vec3(1, 0, 0));
+  CHECK(both[1].colour == vec3(0, 0, 1));
+  CHECK(both[1].firstTriangle == 1);
+  const auto named = coloursOf((red + blue + "usemtl wall\n" + faces).c_str());
+  REQUIRE(named.size() == 2);
+  CHECK(named[1].name == "wall");
+  CHECK(coloursOf((red + "v 0 0 1\nv 1 0 1 0 0 1\nv 0 1 1 0 0 1\n" + faces).c_str()).empty());
+  CHECK(coloursOf((red + "v 0 0 1 1.0\nv 1 0 1 1.0\nv 0 1 1 1.0\n" + faces).c_str()).empty());
+}
