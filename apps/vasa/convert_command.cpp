@@ -13,6 +13,7 @@
 #include "convert_report.h"
 #include "core/log.h"
 #include "io/foreign_files.h"
+#include "io/markups.h"
 #include "network/file.h"
 #include "network/join_lines.h"
 #include "network_output.h"
@@ -210,6 +211,10 @@ Result<void> run(const Globals& globals, const Options& options) {
   const auto start = std::chrono::steady_clock::now();
   ConvertOptions settings = convertOptions(options);
   const bool lines = holdsCentrelines(options.meshes.front());
+  if (const auto markups = std::ranges::find_if(options.meshes, isMarkupsFile);
+      markups != options.meshes.end() && (!options.unit.empty() || options.scale > 0 || options.up != "y"))
+    return Error{Fault::usage,
+                 *markups + ": tells its unit and its axes itself; leave out --unit, --scale and --up"};
   if (const char* ofSurfaces = onlyForSurfaces(options); lines && ofSurfaces)
     return Error{Fault::usage, fmt::format("{}: centre lines are followed as they are told; leave out {}",
                                            options.meshes.front(), ofSurfaces)};
@@ -278,7 +283,7 @@ void addConvert(CLI::App& app, Command& command) {
       "source, but what overlaps at rest is not held apart in motion, and check says so.");
   sub->add_option(
          "MESH", options->meshes,
-         "Surfaces: .glb, .gltf, .obj, .stl, .vtp, .vtk; or centre lines with radii: .swc, .vtp, .vtk")
+         "Surfaces: .glb, .gltf, .obj, .stl, .vtp, .vtk; or centre lines with radii: .swc, .vtp, .vtk, .mrk.json")
       ->required();
   sub->add_option("-o,--output", options->output, "The network to write (.vasa)")->required();
   sub->add_option("--kind", options->kind, "Kind of every vessel: artery, vein, portal, lymphatic or other")

@@ -14,6 +14,7 @@
 #include "io/bvh.h"
 #include "io/foreign_files.h"
 #include "io/gltf.h"
+#include "io/markups.h"
 #include "io/png.h"
 #include "network/file.h"
 #include "network/measure.h"
@@ -266,8 +267,8 @@ Result<Report> reportOf(const std::filesystem::path& file, bool vessels, bool jo
   return Error{
       Fault::usage,
       file.string() +
-          ": unknown kind of file; info reads .vasa, .glb, .gltf, .vrm, .obj, .stl, .vtp, .vtk, .swc, .bvh "
-          "and scene .json files" +
+          ": unknown kind of file; info reads .vasa, .glb, .gltf, .vrm, .obj, .stl, .vtp, .vtk, .swc, "
+          ".mrk.json, .bvh and scene .json files" +
           remedyFor(file, FileUse::vessels)};
 }
 
@@ -319,7 +320,8 @@ Result<Report> sceneReport(const SceneFile& file, bool vessels, bool joints) {
 }
 
 bool isScene(const Options& options) {
-  return options.file.empty() || std::filesystem::path(options.file).extension() == ".json";
+  return options.file.empty() ||
+         (std::filesystem::path(options.file).extension() == ".json" && !isMarkupsFile(options.file));
 }
 
 Report profileReport(const std::string& title, std::span<const ProfileStation> stations) {

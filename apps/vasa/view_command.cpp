@@ -11,6 +11,7 @@
 #include "gpu/error.h"
 #include "io/foreign_files.h"
 #include "io/gltf.h"
+#include "io/markups.h"
 #include "report.h"
 #include "scene/vessel_files.h"
 #include "scene_options.h"
@@ -33,7 +34,7 @@ struct Options {
 const auto kStart = std::chrono::steady_clock::now();  // before main()
 
 constexpr const char* kOpenable =
-    "open a scene (.json), vessels (.vasa, .glb, .obj, .stl, .swc, .vtp, .vtk), a body (.glb, .gltf, .vrm) or a motion (.bvh)";
+    "open a scene (.json), vessels (.vasa, .glb, .obj, .stl, .swc, .vtp, .vtk, .mrk.json), a body (.glb, .gltf, .vrm) or a motion (.bvh)";
 
 // Vessels take the place of others: those were what edits were of, and what the scene's name stands for.
 SceneFile withVessels(SceneFile scene, const std::filesystem::path& path) {
@@ -49,7 +50,7 @@ enum class Opened { scene, motion, body, vessels };
 // A glTF file with a skeleton is a body, one without is vessels.
 Result<Opened> whatIs(const std::filesystem::path& path) {
   const std::string extension = extensionOf(path);
-  if (extension == ".json") return Opened::scene;
+  if (extension == ".json" && !isMarkupsFile(path)) return Opened::scene;
   if (isMotionFile(path.string())) return Opened::motion;
   if (isGltfFile(path)) {
     const auto summary = countGltf(path);
@@ -101,7 +102,8 @@ Result<viewer::ViewOptions> prepare(const Globals& globals, const Options& optio
     view.height = size->height;
   }
   SceneOptions scene = options.scene;
-  if (const std::filesystem::path file = scene.scene; !file.empty() && extensionOf(file) != ".json") {
+  if (const std::filesystem::path file = scene.scene;
+      !file.empty() && (extensionOf(file) != ".json" || isMarkupsFile(file))) {
     const char* const given = !scene.holds.empty() ? "--holds" : !scene.edits.empty() ? "--edits" : nullptr;
     if (given)
       return Error{Fault::usage, std::string(given) + " is of vessels that --network gives; give --network " +

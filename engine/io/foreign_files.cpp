@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/letters.h"
+#include "io/markups.h"
 #include "io/words.h"
 
 namespace vasa {
@@ -19,6 +20,8 @@ constexpr std::array<std::string_view, 20> kModels{
     ".ply", ".off", ".dae", ".fbx", ".3ds", ".blend", ".usd", ".usda", ".usdc", ".usdz",
     ".abc", ".ma",  ".mb",  ".max", ".c4d", ".x",     ".pmx", ".3mf",  ".wrl",  ".x3d"};
 constexpr std::array<std::string_view, 4> kParts{".step", ".stp", ".iges", ".igs"};
+constexpr std::array<std::string_view, 4> kMeshes{".byu", ".gii", ".msh", ".mesh"};
+constexpr std::array<std::string_view, 3> kTracings{".asc", ".nlx", ".ndf"};
 constexpr std::array<std::string_view, 5> kGrids{".vtu", ".vti", ".vtr", ".vts", ".vtm"};
 constexpr std::array<std::string_view, 5> kVolumes{".nrrd", ".nii", ".mha", ".mhd", ".dcm"};
 constexpr std::array<std::string_view, 4> kPacked{".gz", ".zip", ".7z", ".rar"};
@@ -36,9 +39,13 @@ std::string vesselRemedy(const std::string& extension) {
   if (isAny(extension, kVolumes))
     return "; make a surface of the labelled volume first (3D Slicer: export the segmentation as .stl or .obj)";
   if (isAny(extension, kSlicer))
-    return "; save the model in 3D Slicer as .stl, or the centre lines with radii (Extract Centerline: "
-           "Centerline model) as .vtp";
+    return "; save the model in 3D Slicer as .stl, or the centre lines with radii (Extract Centerline) as .vtp "
+           "(the model) or .mrk.json (the curves)";
   if (isAny(extension, kSimVascular)) return "; export the model in SimVascular as .vtp or .stl";
+  if (isAny(extension, kMeshes))
+    return "; open it in the program that made it, ParaView or Gmsh, and save it as .stl";
+  if (isAny(extension, kTracings))
+    return "; convert it to .swc first (the tracing program exports it, or L-Measure does)";
   if (extension == ".traces") return "; export it in SNT as .swc";
   if (extension == ".eswc") return "; name it .swc: columns after the seventh are passed over";
   if (isAny(extension, kTables))
@@ -80,6 +87,7 @@ bool isGltfFile(const std::filesystem::path& path) {
 
 std::string remedyFor(const std::filesystem::path& path, FileUse use) {
   const std::string extension = extensionOf(path);
+  if (use == FileUse::vessels && isMarkupsFile(path)) return "; vasa convert makes a network of it";
   // a.nii.gz, a.mrk.json: what stands before tells.
   if (extension == ".gz" || extension == ".json")
     if (std::string inner = remedyFor(path.stem(), use); !inner.empty()) return inner;

@@ -10,6 +10,7 @@
 #include "core/atomic_file.h"
 #include "core/text_file.h"
 #include "io/foreign_files.h"
+#include "io/markups.h"
 
 namespace vasa {
 namespace {
@@ -266,6 +267,7 @@ Result<SceneFile> parseScene(const std::string& text, const std::filesystem::pat
 }
 
 Result<SceneFile> readSceneFile(const std::filesystem::path& path) {
+  if (isMarkupsFile(path)) return noScene(path.string());
   const auto bytes = readFile(path, kMaximumSceneBytes);
   if (!bytes && bytes.error().fault == Fault::badInput && extensionOf(path) != ".json")  // larger than any
     return noScene(path.string());

@@ -12,6 +12,7 @@
 #include "io/gltf.h"
 #include "io/obj.h"
 #include "io/stl.h"
+#include "io/markups.h"
 #include "io/swc.h"
 #include "io/vtk.h"
 #include "io/vtp.h"
@@ -35,10 +36,11 @@ Result<std::vector<MeshElement>> readElements(const std::filesystem::path& path,
     auto missing = readFile(path);  // says what it is instead
     if (!missing) return missing.error();
   }
-  return Error{Fault::usage,
-               path.string() +
-                   ": unknown kind of file; convert reads .glb, .gltf, .obj, .stl, .vtp, .vtk and .swc" +
-                   remedyFor(path, FileUse::vessels)};
+  return Error{
+      Fault::usage,
+      path.string() +
+          ": unknown kind of file; convert reads .glb, .gltf, .obj, .stl, .vtp, .vtk, .swc and .mrk.json" +
+          remedyFor(path, FileUse::vessels)};
 }
 
 float largest(const Aabb& bounds) {
@@ -53,8 +55,7 @@ auto readInLikelyUnit(const std::filesystem::path& path, Read read, ImportFrame:
     -> decltype(read(VesselImport{})) {
   HeldWarnings ofFirst;  // reading again says them again
   auto found = read(VesselImport{{1, up}, {}});
-  const std::string extension = extensionOf(path);
-  if (!found || extension == ".glb" || extension == ".gltf") return found;  // metres by definition
+  if (!found || isGltfFile(path) || isMarkupsFile(path)) return found;  // in units of their own
   const Aabb bounds = boundsOf(*found);
   const double unit = likelyUnit(bounds);
   if (unit == 1) return found;
@@ -157,7 +158,8 @@ Result<bool> holdsSurfacesAlone(const std::filesystem::path& path) {
 
 bool holdsCentrelines(const std::filesystem::path& path) {
   const std::string extension = extensionOf(path);
-  return extension == ".swc" || (isVtk(extension) && vtkContent(path) == VtkContent::lines);
+  return extension == ".swc" || isMarkupsFile(path) ||
+         (isVtk(extension) && vtkContent(path) == VtkContent::lines);
 }
 
 Result<std::vector<SourceElement>> readSurfaces(const std::filesystem::path& path,
@@ -207,6 +209,11 @@ Result<Centrelines> readCentrelines(const std::filesystem::path& path, const Ves
 Result<Network> readNetworkFile(const std::filesystem::path& path) {
   auto network = readNetwork(path);
   if (network || network.error().fault != Fault::badInput || extensionOf(path) == ".vasa") return network;
+  if (isMarkupsFile(path)) {
+    auto curves = readMarkups(path, kind);
+    if (curves) joinTouchingLines(*curves);
+    return curves;
+  }
   const std::string remedy = remedyFor(path, FileUse::vessels);
   return remedy.empty() ? std::move(network) : badInput(path.string() + ": is no .vasa file" + remedy);
 }

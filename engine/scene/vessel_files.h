@@ -30,7 +30,7 @@ struct VesselImport {
 bool holdsSurfaces(const std::filesystem::path& path);
 /// The same without a skeleton: vessels, or a skin. Looks into glTF files, and fails where these are damaged.
 Result<bool> holdsSurfacesAlone(const std::filesystem::path& path);
-/// .swc; .vtp and .vtk with lines.
+/// .swc, .mrk.json; .vtp and .vtk with lines.
 bool holdsCentrelines(const std::filesystem::path& path);
 
 /// Fails as readers do, with badInput where there is no triangle, and with Fault::usage for other kinds of

@@ -427,9 +427,10 @@ TEST_CASE("files of a kind that is not read say what to do") {
   const TemporaryFolder folder;
   for (const auto& [name, remedy] :
        {std::pair("a.ply", "export it as .glb or .obj"), std::pair("a.vtu", "Extract Surface"),
-        std::pair("a.nii", "3D Slicer"), std::pair("a.nii.gz", "3D Slicer"),
-        std::pair("a.mrk.json", "3D Slicer"), std::pair("a.ctgr", "SimVascular"),
-        std::pair("a.traces", "as .swc"), std::pair("a.stl.gz", "unpack it first")}) {
+        std::pair("a.nii", "3D Slicer"), std::pair("a.nii.gz", "3D Slicer"), std::pair("a.fcsv", "3D Slicer"),
+        std::pair("a.gii", "as .stl"), std::pair("a.asc", "to .swc first"),
+        std::pair("a.ctgr", "SimVascular"), std::pair("a.traces", "as .swc"),
+        std::pair("a.stl.gz", "unpack it first")}) {
     const auto outcome =
         runProgram({"convert", write(folder, name, "x"), "-o", (folder.path() / "a.vasa").string()});
     CHECK(outcome.exit == 2);

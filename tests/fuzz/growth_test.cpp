@@ -17,6 +17,7 @@
 #include "io/base64.h"
 #include "io/bvh.h"
 #include "io/gltf.h"
+#include "io/markups.h"
 #include "io/obj.h"
 #include "io/read_limits.h"
 #include "io/stl.h"
@@ -294,6 +295,32 @@ TEST_CASE("SWC of nasty shapes grows in proportion") {
         if (samples) (void)centrelinesOfSwc(*samples, "f", VesselKind::artery);
         return messageOf(samples);
       });
+}
+
+TEST_CASE("curves of 3D Slicer grow in proportion") {
+  const auto curve = [](const std::string& points, const std::string& radii) {
+    return R"({"markups":[{"type":"Curve","controlPoints":[)" + points +
+           R"(],"measurements":[{"name":"Radius","controlPointValues":[)" + radii + "]}]}]}";
+  };
+  const auto list = [](std::size_t n, const auto& item) {
+    return times(n, [&](std::size_t i) { return (i > 0 ? "," : "") + item(i); });
+  };
+  checkGrowth(
+      {{"control points", 3000,
+        [&](std::size_t n) {
+          return curve(list(n, [](std::size_t i) { return R"({"position":[0,0,)" + of(i) + "]}"; }),
+                       list(n, [&](std::size_t i) { return std::string(i + 1 == n ? "1" : "0"); }));
+        }},
+       {"empty points", 20'000,
+        [&](std::size_t n) { return curve(list(n, [](std::size_t) { return std::string("{}"); }), "1"); }},
+       {"curves", 2000,
+        [&](std::size_t n) {
+          const std::string one =
+              R"({"type":"Curve","controlPoints":[{"position":[0,0,1]},{"position":[0,0,2]}],)"
+              R"("measurements":[{"name":"r","controlPointValues":[1,1]}]})";
+          return R"({"markups":[)" + list(n, [&](std::size_t) { return one; }) + "]}";
+        }}},
+      [](const std::string& file) { return messageOf(parseMarkups(file, "f", VesselKind::artery)); });
 }
 
 TEST_CASE("combs of branches and who is whose neighbour in them grow in proportion") {

@@ -14,6 +14,7 @@
 #include "growth/regions.h"
 #include "io/bvh.h"
 #include "io/gltf.h"
+#include "io/markups.h"
 #include "io/obj.h"
 #include "io/stl.h"
 #include "io/swc.h"
@@ -118,6 +119,12 @@ void swc(Bytes bytes) {
   useLines(traces);
   joinTouchingLines(traces);
   useLines(traces);
+}
+
+void markups(Bytes bytes) {
+  const auto curves = parseMarkups(textOf(bytes), "f", VesselKind::artery);
+  messageNames(curves);
+  if (curves) useLines(*curves);
 }
 
 void vtk(Bytes bytes) {
@@ -261,10 +268,10 @@ void replay(Bytes bytes) {
 }
 
 std::span<const Target> targets() {
-  static constexpr Target all[] = {{"swc", swc},      {"vtp", vtp},     {"vtk", vtk},   {"bvh", bvh},
-                                   {"obj", obj},      {"stl", stl},     {"gltf", gltf}, {"map", map},
-                                   {"rules", rules},  {"scene", scene}, {"vasa", vasa}, {"vedit", vedit},
-                                   {"replay", replay}};
+  static constexpr Target all[] = {{"swc", swc},       {"vtp", vtp},        {"vtk", vtk},   {"bvh", bvh},
+                                   {"obj", obj},       {"stl", stl},        {"gltf", gltf}, {"map", map},
+                                   {"rules", rules},   {"scene", scene},    {"vasa", vasa}, {"vedit", vedit},
+                                   {"replay", replay}, {"markups", markups}};
   return all;
 }
 

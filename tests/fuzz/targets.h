@@ -10,6 +10,7 @@ namespace vasa::fuzz {
 using Bytes = std::span<const std::byte>;
 
 void swc(Bytes bytes);
+void markups(Bytes bytes);
 void vtk(Bytes bytes);
 void vtp(Bytes bytes);
 void bvh(Bytes bytes);
