@@ -170,6 +170,7 @@ Result<Conversion> convertCentrelines(const Options& options) {
   const auto all =
       readInUnit(options, [&](double metresPerUnit) { return readLines(options, metresPerUnit); });
   if (!all) return all.error();
+  if (auto near = checkReach(boundsOf(*all), options.meshes.front()); !near) return near.error();
   auto made = networkOfCentrelines(*all, options.bodyHeight);
   if (!made) return badInput(options.meshes.front() + ": " + made.error().message);
   ConvertReport report = reportOfCentrelines(*all, *made);
@@ -210,11 +211,11 @@ Result<void> run(const Globals& globals, const Options& options) {
   if (auto writable = checkNetworkOutput(options.output); !writable) return writable.error();
   const auto start = std::chrono::steady_clock::now();
   ConvertOptions settings = convertOptions(options);
-  const bool lines = holdsCentrelines(options.meshes.front());
   if (const auto markups = std::ranges::find_if(options.meshes, isMarkupsFile);
       markups != options.meshes.end() && (!options.unit.empty() || options.scale > 0 || options.up != "y"))
     return Error{Fault::usage,
                  *markups + ": tells its unit and its axes itself; leave out --unit, --scale and --up"};
+  const bool lines = holdsCentrelines(options.meshes.front());
   if (const char* ofSurfaces = onlyForSurfaces(options); lines && ofSurfaces)
     return Error{Fault::usage, fmt::format("{}: centre lines are followed as they are told; leave out {}",
                                            options.meshes.front(), ofSurfaces)};
@@ -223,7 +224,8 @@ Result<void> run(const Globals& globals, const Options& options) {
       lines ? Result(std::vector<SourceElement>())
             : readInUnit(options, [&](double metresPerUnit) { return readSources(options, metresPerUnit); });
   if (!sources) return sources.error();
-  std::vector<std::string> leftOut;
+  if (auto near = checkReach(boundsOf(*sources), options.meshes.front()); !near) return near.error();
+  std::vector<LeftOut> leftOut;
   if (options.kind.empty()) leftOut = leaveOutNamedOthers(*sources);  // else they are told to be vessels
   RestRepair repair;
   settings.mend = [&](const Network& network) {
@@ -249,8 +251,10 @@ Result<void> run(const Globals& globals, const Options& options) {
   output->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (globals.json) {
     Report report = convertJson(conversion->report, *output);
-    leftOut.insert(leftOut.end(), conversion->outerWalls.begin(), conversion->outerWalls.end());
-    report["left_out"] = leftOut;
+    for (const std::string& wall : conversion->outerWalls) leftOut.push_back({wall, NoVessel::outerWall});
+    report["left_out"] = Report::array();
+    for (const LeftOut& left : leftOut)
+      report["left_out"].push_back({{"name", left.name}, {"why", reasonOf(left.why)}});
     addRestRepair(report["summary"], repair);
     if (patches) report["patches"] = patchesJson(*patches, conversion->network);
     return printJson(report);
@@ -277,7 +281,7 @@ void addConvert(CLI::App& app, Command& command) {
       "The kind of vessel comes from the file's extras, else from an FMA or UBERON number, else from the element's name, else\n"
       "from the file's, else from the names around it (mesh, collection, material), else from its colour.\n"
       "Elements that repeat others are dropped; ends that meet are joined, arteries to arteries and veins to veins.\n"
-      "What is no vessel by its name, and the outside of another element's wall, is left out (left_out of --json).\n"
+      "What is no vessel by its name, and the outside of another element's wall, is left out (left_out of --json, with why).\n"
       "Vessels that run through one another are moved apart by up to 6 mm and thinned by up to 1 mm (overlaps; rest_overlaps\n"
       "of --json names those that stay, with the reason). --no-part leaves them where the surfaces have them: nearer to the\n"
       "source, but what overlaps at rest is not held apart in motion, and check says so.");

@@ -207,7 +207,9 @@ Result<Report> surfaceReport(const std::filesystem::path& file) {
   const auto unit = report["metres_a_unit"].get<float>();
   for (SourceElement& source : *sources)
     for (vec3& p : source.element.mesh.positions) p *= unit;
-  for (const std::size_t e : noVessels(*sources)) list[e]["left_out"] = true;
+  const std::vector<NoVessel> why = noVessels(*sources);
+  for (std::size_t e = 0; e < why.size(); ++e)
+    if (why[e] != NoVessel::none) list[e]["left_out"] = reasonOf(why[e]);
   report["element"] = std::move(list);
   return report;
 }

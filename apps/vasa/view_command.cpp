@@ -53,9 +53,9 @@ Result<Opened> whatIs(const std::filesystem::path& path) {
   if (extension == ".json" && !isMarkupsFile(path)) return Opened::scene;
   if (isMotionFile(path.string())) return Opened::motion;
   if (isGltfFile(path)) {
-    const auto summary = countGltf(path);
-    if (!summary) return summary.error();
-    return summary->body ? Opened::body : Opened::vessels;
+    const auto vessels = holdsSurfacesAlone(path);
+    if (!vessels) return vessels.error();
+    return *vessels ? Opened::vessels : Opened::body;
   }
   if (extension == ".vasa" || holdsSurfaces(path) || holdsCentrelines(path)) return Opened::vessels;
   return Error{Fault::usage, path.string() + ": this is no kind of file that the app opens; " + kOpenable};

@@ -121,6 +121,11 @@ ElementReport reportElement(const Assembly& assembly, const SourceElement& sourc
     doubt(report, meanRadius(assembly, index, error.area), source.element.mesh);
   else
     doubtTold(report, toldRadius(assembly, index), vesselsLength(assembly, index));
+  if (source.noVessel != NoVessel::none && report.vessels > 0) {
+    report.status = ElementStatus::doubtful;
+    append(report.reason, "its name tells of no vessel (" + std::string(reasonOf(source.noVessel)) +
+                              "), as do those of all others; --kind says that it is one");
+  }
   return report;
 }
 

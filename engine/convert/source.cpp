@@ -120,7 +120,7 @@ std::vector<SourceElement> describeElements(std::vector<MeshElement> elements, s
   const auto add = [&](MeshElement element) {
     const VesselKind kind = kindOf(element, fileName);
     std::string label = vesselLabel(element.name);
-    const bool noVessel = namesNoVessel(element, fileName);
+    const NoVessel noVessel = namesNoVessel(element, fileName);
     described.push_back({std::move(element), kind, std::move(label), false, noVessel});
   };
   for (MeshElement& element : elements) {
@@ -133,36 +133,43 @@ std::vector<SourceElement> describeElements(std::vector<MeshElement> elements, s
   return described;
 }
 
-std::vector<std::size_t> noVessels(const std::vector<SourceElement>& sources) {
-  const auto wide = [](const SourceElement& source) {
-    return roughRadius(source.element.mesh) > kWidestVessel;
-  };
+std::vector<NoVessel> noVessels(const std::vector<SourceElement>& sources) {
+  std::vector<char> wide;
+  for (const SourceElement& source : sources)
+    wide.push_back(roughRadius(source.element.mesh) > kWidestVessel);
   // The skin of a body, say, which holds most of what is named as a vessel (an aneurysm holds none). Where
   // that is as wide, all are in another unit.
   std::vector<vec3> named;
-  for (const SourceElement& source : sources)
-    if (source.kind != VesselKind::other && !source.noVessel && !wide(source))
-      named.push_back(source.element.mesh.bounds().centre());
+  for (std::size_t e = 0; e < sources.size(); ++e)
+    if (sources[e].kind != VesselKind::other && sources[e].noVessel == NoVessel::none && !wide[e])
+      named.push_back(sources[e].element.mesh.bounds().centre());
   const auto holdsMost = [&](const SourceElement& source) {
     const Aabb box = source.element.mesh.bounds();
     const auto inside = std::ranges::count_if(named, [&](vec3 place) { return box.distance(place) == 0; });
     return 2 * std::size_t(inside) > named.size();
   };
-  std::vector<std::size_t> none;
+  std::vector<NoVessel> why;
   for (std::size_t e = 0; e < sources.size(); ++e) {
     const SourceElement& source = sources[e];
-    if (source.noVessel ||
-        (source.kind == VesselKind::other && !named.empty() && wide(source) && holdsMost(source)))
-      none.push_back(e);
+    why.push_back(source.noVessel);
+    if (why[e] == NoVessel::none && source.kind == VesselKind::other && !named.empty() && wide[e] &&
+        holdsMost(source))
+      why[e] = NoVessel::width;
   }
-  return none.size() < sources.size() ? none : std::vector<std::size_t>();
+  if (std::ranges::count(why, NoVessel::none) == 0) why.assign(why.size(), NoVessel::none);
+  return why;
 }
 
-std::vector<std::string> leaveOutNoVessels(std::vector<SourceElement>& sources) {
-  std::vector<std::string> left;
-  const std::vector<std::size_t> none = noVessels(sources);
-  for (const std::size_t e : none) left.push_back(sources[e].element.name);
-  for (std::size_t k = none.size(); k-- > 0;) sources.erase(sources.begin() + std::ptrdiff_t(none[k]));
+std::vector<LeftOut> leaveOutNoVessels(std::vector<SourceElement>& sources) {
+  std::vector<LeftOut> left;
+  std::vector<SourceElement> stay;
+  const std::vector<NoVessel> why = noVessels(sources);
+  for (std::size_t e = 0; e < sources.size(); ++e)
+    if (why[e] == NoVessel::none)
+      stay.push_back(std::move(sources[e]));
+    else
+      left.push_back({std::move(sources[e].element.name), why[e]});
+  sources = std::move(stay);
   return left;
 }
 

@@ -3,6 +3,7 @@
 #include <string_view>
 #include <vector>
 
+#include "convert/no_vessel.h"
 #include "mesh/mesh_element.h"
 #include "network/network.h"
 
@@ -12,9 +13,9 @@ namespace vasa {
 struct SourceElement {
   MeshElement element;
   VesselKind kind = VesselKind::other;
-  std::string label;      ///< the vessel's name: the element's without its leading catalogue number
-  bool byLumen = false;   ///< the outside of its wall is left out
-  bool noVessel = false;  ///< its name says an organ, a bone or a finding
+  std::string label;     ///< the vessel's name: the element's without its leading catalogue number
+  bool byLumen = false;  ///< the outside of its wall is left out
+  NoVessel noVessel = NoVessel::none;  ///< what its name says that it is instead
 };
 
 /// The kind of vessel: by what the file says of the element, else by an ontology's number (FMA, UBERON) of a
@@ -29,10 +30,6 @@ VesselKind kindOf(const MeshElement& element, std::string_view fileName);
 VesselKind kindOfTexts(const MeshElement& element, std::string_view fileName);
 VesselKind kindOf(const MeshMaterial& material);
 
-/// Whether an element's name says something else in a body than a vessel, in English (kidney_left, rib 4,
-/// thrombus), and no text or number tells of a vessel.
-bool namesNoVessel(const MeshElement& element, std::string_view fileName);
-
 /// "FJ1654M left anterior cerebral artery" -> "left anterior cerebral artery"; other names stay as they are.
 std::string vesselLabel(std::string_view elementName);
 
@@ -44,13 +41,19 @@ bool sameFamily(VesselKind a, VesselKind b);
 /// of no known kind.
 std::vector<SourceElement> describeElements(std::vector<MeshElement> elements, std::string_view fileName);
 
-/// Which elements are no vessels: leaveOutNoVessels() takes them out. None where all are.
-std::vector<std::size_t> noVessels(const std::vector<SourceElement>& sources);
+/// Of each element why it is no vessel; leaveOutNoVessels() takes those out. All none where no element would
+/// be left.
+std::vector<NoVessel> noVessels(const std::vector<SourceElement>& sources);
+
+/// An element that is no vessel.
+struct LeftOut {
+  std::string name;
+  NoVessel why;
+};
 
 /// Takes out what is no vessel by its name, where there is something else: of a whole body that was segmented
 /// the vessels alone; and what no name tells, is wider than any vessel and holds most of those that names
 /// tell.
-/// @return the names of what was taken out
-std::vector<std::string> leaveOutNoVessels(std::vector<SourceElement>& sources);
+std::vector<LeftOut> leaveOutNoVessels(std::vector<SourceElement>& sources);
 
 }  // namespace vasa

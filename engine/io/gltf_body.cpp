@@ -129,6 +129,9 @@ float likelyUnitOf(const Asset& asset, const Skeleton& skeleton) {
   const float size = std::max({extent.x, extent.y, extent.z});
   const auto middle = links.begin() + std::ptrdiff_t(links.size() / 2);
   std::ranges::nth_element(links, middle);
+  if (size > 0 && size < kSmallest / 4)
+    logWarning(asset.name + ": its skeleton is " + std::to_string(std::lround(1000 * size)) +
+               " mm large, and glTF is in metres; export it at a person's size (Blender: apply the scale)");
   if (!(size > kLargest && *middle > kLongestLink)) return 1;
   for (const auto& [name, unit] : {std::pair("centimetres", 0.01f), std::pair("millimetres", 0.001f)})
     if (size * unit >= kSmallest && size * unit < kLargest) {

@@ -1,18 +1,20 @@
 #include "scene/vessel_files.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
 #include "convert/convert.h"
+#include "convert/duplicates.h"
 #include "core/atomic_file.h"
 #include "core/log.h"
 #include "core/visible.h"
 #include "io/foreign_files.h"
 #include "io/gltf.h"
+#include "io/markups.h"
 #include "io/obj.h"
 #include "io/stl.h"
-#include "io/markups.h"
 #include "io/swc.h"
 #include "io/vtk.h"
 #include "io/vtp.h"
@@ -80,6 +82,7 @@ Result<Network> networkOfSurfaces(const std::filesystem::path& path, float bodyH
                                   const ReadingProgress& told) {
   auto sources = readSurfacesInLikelyUnit(path, ImportFrame::Up::y);
   if (!sources) return sources.error();
+  if (auto near = checkReach(boundsOf(*sources), path.string()); !near) return near.error();
   leaveOutNamedOthers(*sources);
   ConvertOptions options{.bodyHeight = bodyHeight};
   if (told) {
@@ -101,6 +104,7 @@ Result<Network> networkOfLines(const std::filesystem::path& path, float bodyHeig
   const auto lines =
       readInLikelyUnit(path, [&](const VesselImport& import) { return readCentrelines(path, import); });
   if (!lines) return lines.error();
+  if (auto near = checkReach(boundsOf(*lines), path.string()); !near) return near.error();
   auto made = networkOfCentrelines(*lines, bodyHeight);
   if (!made) return badInput(path.string() + ": " + made.error().message);
   return std::move(made->network);
@@ -108,15 +112,24 @@ Result<Network> networkOfLines(const std::filesystem::path& path, float bodyHeig
 
 }  // namespace
 
-std::vector<std::string> leaveOutNamedOthers(std::vector<SourceElement>& sources) {
+std::vector<LeftOut> leaveOutNamedOthers(std::vector<SourceElement>& sources) {
   const std::size_t all = sources.size();
-  std::vector<std::string> left = leaveOutNoVessels(sources);
+  std::vector<LeftOut> left = leaveOutNoVessels(sources);
   if (!left.empty())
     logInfo(fmt::format(
-        "left out by their names or their width, which are those of no vessels: {} of {} elements, '{}' first; "
-        "what is a vessel needs a vessel's name, or --kind",
-        left.size(), all, visible(left.front())));
+        "left out by their names or their width, which are those of no vessels: {} of {} elements, '{}' ({}) "
+        "first; what is a vessel needs a vessel's name, or --kind",
+        left.size(), all, visible(left.front().name), reasonOf(left.front().why)));
   return left;
+}
+
+Result<void> checkReach(const Aabb& bounds, const std::string& name) {
+  constexpr float kFarthest = 1000;
+  if (farthest(bounds) <= kFarthest) return {};
+  return badInput(fmt::format(
+      "{}: the vessels lie {:.0f} m from the origin, where places are rounded to {:.1g} mm; move them to it in "
+      "the program that made the file (Blender: Set Origin, then location 0), or give their unit with --unit",
+      name, farthest(bounds), 1e3 * (std::nextafter(farthest(bounds), 1e9f) - farthest(bounds))));
 }
 
 Aabb boundsOf(const std::vector<SourceElement>& sources) {
@@ -153,7 +166,14 @@ Result<bool> holdsSurfacesAlone(const std::filesystem::path& path) {
   if (!isGltfFile(path)) return true;
   const auto summary = countGltf(path);
   if (!summary) return summary.error();
-  return !summary->body;
+  if (!summary->body || summary->skins > 0) return !summary->body;
+  // Rigid pieces that hang on one another like limbs: a person's, or the vessels of each limb below a node of
+  // its name. A person's trunk and head are wider than any vessel.
+  const auto pieces = readGltfElements(path);
+  if (!pieces) return pieces.error();
+  return std::ranges::none_of(*pieces, [](const MeshElement& piece) {
+    return !piece.mesh.empty() && roughRadius(piece.mesh) > kWidestVessel;
+  });
 }
 
 bool holdsCentrelines(const std::filesystem::path& path) {
@@ -169,7 +189,8 @@ Result<std::vector<SourceElement>> readSurfaces(const std::filesystem::path& pat
   if (std::ranges::all_of(*elements, [](const MeshElement& e) { return e.mesh.empty(); }))
     return badInput(path.string() + ": the file holds no triangles; export the vessels as surfaces");
   std::vector<SourceElement> sources = describeElements(std::move(*elements), path.stem().string());
-  for (SourceElement& source : sources) source.kind = import.kind.value_or(source.kind);
+  if (import.kind)
+    for (SourceElement& source : sources) source.kind = *import.kind, source.noVessel = NoVessel::none;
   return sources;
 }
 
@@ -188,6 +209,11 @@ TriangleMesh meshOf(const std::vector<SourceElement>& sources) {
 Result<Centrelines> readCentrelines(const std::filesystem::path& path, const VesselImport& import) {
   const std::string name = path.stem().string();
   const VesselKind kind = import.kind.value_or(kindOf(MeshElement{name, {}, {}, {}}, name));
+  if (isMarkupsFile(path)) {
+    auto curves = readMarkups(path, kind);
+    if (curves) joinTouchingLines(*curves);
+    return curves;
+  }
   if (extensionOf(path) == ".swc") {
     const auto samples = readSwc(path, import.frame);
     if (!samples) return samples.error();
@@ -209,11 +235,6 @@ Result<Centrelines> readCentrelines(const std::filesystem::path& path, const Ves
 Result<Network> readNetworkFile(const std::filesystem::path& path) {
   auto network = readNetwork(path);
   if (network || network.error().fault != Fault::badInput || extensionOf(path) == ".vasa") return network;
-  if (isMarkupsFile(path)) {
-    auto curves = readMarkups(path, kind);
-    if (curves) joinTouchingLines(*curves);
-    return curves;
-  }
   const std::string remedy = remedyFor(path, FileUse::vessels);
   return remedy.empty() ? std::move(network) : badInput(path.string() + ": is no .vasa file" + remedy);
 }

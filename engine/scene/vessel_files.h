@@ -40,8 +40,8 @@ Result<std::vector<SourceElement>> readSurfaces(const std::filesystem::path& pat
 /// The same in the likely unit (likelyUnit), which is said where it is not metres. @param up  of all but glTF
 Result<std::vector<SourceElement>> readSurfacesInLikelyUnit(const std::filesystem::path& path,
                                                             ImportFrame::Up up);
-/// Takes out organs and the like that have their names (convert/source.h), and says so. @return their names
-std::vector<std::string> leaveOutNamedOthers(std::vector<SourceElement>& sources);
+/// Takes out organs and the like that have their names (convert/source.h), and says so. @return which
+std::vector<LeftOut> leaveOutNamedOthers(std::vector<SourceElement>& sources);
 /// All triangles of some surfaces.
 TriangleMesh meshOf(const std::vector<SourceElement>& sources);
 Result<Centrelines> readCentrelines(const std::filesystem::path& path, const VesselImport& import = {});
@@ -55,6 +55,10 @@ Result<Network> readNetworkFile(const std::filesystem::path& path);
 /// @param bodyHeight  [m] of the body that they belong to; 0: their own
 Result<Network> readVessels(const std::filesystem::path& path, float bodyHeight = 0,
                             const ReadingProgress& told = {});
+
+/// Fails with badInput where vessels lie farther than a kilometre from the origin: there places are rounded
+/// to a sixteenth of a millimetre and more. @param name  for the message
+Result<void> checkReach(const Aabb& bounds, const std::string& name);
 
 /// Around vessels, in the unit that they were read in.
 Aabb boundsOf(const std::vector<SourceElement>& sources);

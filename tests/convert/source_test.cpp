@@ -152,20 +152,21 @@ TEST_CASE("a mesh whose materials say artery and vein is divided by them, unless
 
 TEST_CASE("organs, bones and findings are known by their names, where nothing says that they are vessels") {
   for (const char* name : {"kidney_left", "vertebrae_L3", "rib_left_4", "Calcification.001", "Liver", "stent",
-                           "lung_upper_lobe_left", "spinal_cord"})
-    CHECK_MESSAGE(namesNoVessel(named(name), "scan"), name);
+                           "lung_upper_lobe_left", "spinal_cord", "organ: suprarenal gland", "windpipe",
+                           "atrial_appendage_left", "lymph_nodes", "cervical_spine"})
+    CHECK_MESSAGE(namesNoVessel(named(name), "scan") != NoVessel::none, name);
   for (const char* name :
        {"Aorta", "renal artery to kidney", "liver vessels", "stomach branch", "portal", "pulmonary_vein",
         "hepatic", "Mesh.001", "vertebral_left", "superior thyroid", "R_ovarian", "bronchial", "cystic",
         "left atrial", "hip_circumflex", "lung_vasc", "kidney capillaries"})
-    CHECK_MESSAGE(!namesNoVessel(named(name), "scan"), name);
+    CHECK_MESSAGE(namesNoVessel(named(name), "scan") == NoVessel::none, name);
   for (const char* name :
        {"Hepar", "Ren sinister", "Leber", "Niere links", "foie", "cœur", "hígado", "fegato", "rinón", "肝臓",
         "左肾", "печень", "M. biceps brachii", "N. vagus", "Os ilium"})
-    CHECK_MESSAGE(namesNoVessel(named(name), "scan"), name);
+    CHECK_MESSAGE(namesNoVessel(named(name), "scan") != NoVessel::none, name);
   for (const char* name : {"A. hepatica", "Gefäße Leber", "vaisseaux du foie", "vasos del hígado", "肝血管",
                            "肺动脉", "M1", "Ren_L", "Splen", "m.001", "n_2", "M.Schmidt"})
-    CHECK_MESSAGE(!namesNoVessel(named(name), "scan"), name);
+    CHECK_MESSAGE(namesNoVessel(named(name), "scan") == NoVessel::none, name);
   for (const char* name : {"coeur coronaires",
                            "Herz Kranzgefäße",
                            "heart_coronaries",
@@ -189,19 +190,20 @@ TEST_CASE("organs, bones and findings are known by their names, where nothing sa
                            "N. coronaria",
                            "m_cerebralis",
                            "n_phrenica"})
-    CHECK_MESSAGE(!namesNoVessel(named(name), "scan"), name);
-  CHECK(!namesNoVessel(named("stomach"), "bp3d_arteries"));
-  CHECK(!namesNoVessel(named("stomach", "vein"), "scan"));
+    CHECK_MESSAGE(namesNoVessel(named(name), "scan") == NoVessel::none, name);
+  CHECK(namesNoVessel(named("stomach"), "bp3d_arteries") == NoVessel::none);
+  CHECK(namesNoVessel(named("stomach", "vein"), "scan") == NoVessel::none);
   MeshElement lung = named("lung");
   lung.surroundings = {"Arteries"};
   lung.materials = {{"Arteries", {}}};
-  CHECK(!namesNoVessel(lung, "scan"));
+  CHECK(namesNoVessel(lung, "scan") == NoVessel::none);
 
   const auto left = [](const std::vector<const char*>& names) {
     std::vector<MeshElement> elements;
     for (const char* name : names) elements.push_back(named(name));
     auto sources = describeElements(std::move(elements), "scan");
-    const auto out = leaveOutNoVessels(sources);
+    std::vector<std::string> out;
+    for (const LeftOut& element : leaveOutNoVessels(sources)) out.push_back(element.name);
     CHECK(out.size() + sources.size() == names.size());
     return out;
   };
@@ -211,7 +213,10 @@ TEST_CASE("organs, bones and findings are known by their names, where nothing sa
   wide[1].name = "Arteries", wide[1].mesh = test::tubeBetween({0, 1, 0}, {0, 1.4f, 0}, 0.01f);
   wide[2].name = "Mesh.001", wide[2].mesh = test::tubeBetween({0.05f, 1, 0}, {0.05f, 1.4f, 0}, 0.01f);
   auto all = describeElements(wide, "scan");
-  CHECK(leaveOutNoVessels(all) == std::vector<std::string>{"Figure"});
+  const auto out = leaveOutNoVessels(all);
+  REQUIRE(out.size() == 1);
+  CHECK(out[0].name == "Figure");
+  CHECK(out[0].why == NoVessel::width);
   wide[1].mesh =
       test::tubeBetween({0.3f, 1, 0}, {0.3f, 1.4f, 0}, 0.01f);  // beside it, which may be an aneurysm
   all = describeElements(wide, "scan");
@@ -225,6 +230,40 @@ TEST_CASE("organs, bones and findings are known by their names, where nothing sa
   all = describeElements(wide, "scan");
   CHECK(leaveOutNoVessels(all).empty());
   CHECK(left({"liver", "brain"}).empty());  // somebody's vessels of these, as the files are called
+}
+
+TEST_CASE("a vessel's adjective or short form beside an organ's name means the vessel, and not its part") {
+  for (const char* name :
+       {"liver_hepatic", "kidney_RA", "kidney LRV", "liver PV", "femur profunda", "tibia ant",
+        "colon marginalis", "bone nutrient", "spleen splenic", "femur nutricia"})
+    CHECK_MESSAGE(namesNoVessel(named(name), "scan") == NoVessel::none, name);
+  for (const char* name : {"colon splenic flexure", "kidney renal pelvis", "liver hepatic segment 4",
+                           "heart RA", "heart_RV", "femur femoral head", "vertebrae_L3_posterior_elements"})
+    CHECK_MESSAGE(namesNoVessel(named(name), "scan") != NoVessel::none, name);
+}
+
+TEST_CASE("what lies in vessels is none, whatever it lies in; a vessel that has one is one") {
+  struct Case {
+    const char* name;
+    NoVessel why;
+  };
+  for (const auto& [name, why] : {Case{"coronary stent", NoVessel::device},
+                                  {"LAD_stent.001", NoVessel::device},
+                                  {"stent with thrombus", NoVessel::device},
+                                  {"aneurysm thrombus", NoVessel::finding},
+                                  {"portal vein thrombosis", NoVessel::finding},
+                                  {"aorta calcifications", NoVessel::finding},
+                                  {"aortic valve", NoVessel::heart},
+                                  {"válvula aórtica", NoVessel::heart},
+                                  {"Aortenklappe", NoVessel::heart},
+                                  {"冠動脈ステント", NoVessel::device},
+                                  {"aorta with stent", NoVessel::none},
+                                  {"aorta_post_stent", NoVessel::none},
+                                  {"aneurysm without thrombus", NoVessel::none},
+                                  {"calcified aorta", NoVessel::none},
+                                  {"stented artery", NoVessel::none}})
+    CHECK_MESSAGE(namesNoVessel(named(name), "arteries") == why, name);
+  CHECK(namesNoVessel(named("stent", "artery"), "scan") == NoVessel::none);  // the file itself says so
 }
 
 TEST_CASE("catalogue numbers go, names stay") {

@@ -1,0 +1,173 @@
+#include <doctest/doctest.h>
+
+#include "body/person.h"
+#include "cli/program.h"
+#include "convert/sources.h"
+#include "core/atomic_file.h"
+#include "io/gltf_builder.h"
+#include "support/shared_data.h"
+
+using namespace vasa;
+using namespace vasa::test;
+
+// Kinds of files that vessels come in, made here, through the program.
+
+namespace {
+
+struct Files {
+  TemporaryFolder folder;
+  std::string path(const char* name) const { return (folder.path() / name).string(); }
+  std::string write(const char* name, const std::string& text) const {
+    REQUIRE(writeFileAtomically(path(name), text).ok());
+    return path(name);
+  }
+};
+
+bool holds(const std::string& text, const char* part) { return text.find(part) != text.npos; }
+
+// An object of an .obj file, by corners that count from its own end.
+std::string object(const char* name, const TriangleMesh& mesh, float scale = 1, vec3 away = vec3(0)) {
+  std::string text = std::string("o ") + name + "\n";
+  for (const vec3& p : mesh.positions)
+    text += "v " + std::to_string(scale * p.x + away.x) + " " + std::to_string(scale * p.y + away.y) + " " +
+            std::to_string(scale * p.z + away.z) + "\n";
+  const auto count = int(mesh.positions.size());
+  for (const uvec3& t : mesh.triangles)
+    text += "f " + std::to_string(int(t.x) - count) + " " + std::to_string(int(t.y) - count) + " " +
+            std::to_string(int(t.z) - count) + "\n";
+  return text;
+}
+
+const TriangleMesh& tube() {
+  static const TriangleMesh mesh = tubeBetween({0, 0, 0}, {0, 0.1f, 0}, 0.004f);
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("curves of 3D Slicer are centre lines, in the unit and the axes that they tell") {
+  const Files files;
+  std::string points, radii;
+  for (int i = 0; i <= 10; ++i) {
+    points += std::string(i > 0 ? "," : "") + R"({"position":[3,1,)" + std::to_string(10 * i) + "]}";
+    radii += (i > 0 ? ",4" : "4");
+  }
+  const auto curve = files.write(
+      "femoral artery.mrk.json",
+      R"({"markups":[{"type":"Curve","coordinateSystem":"LPS","coordinateUnits":"mm","controlPoints":[)" +
+          points + R"(],"measurements":[{"name":"Radius","controlPointValues":[)" + radii + "]}]}]}");
+  const auto told = runProgram({"info", curve, "--json"});
+  REQUIRE_MESSAGE(told.exit == 0, told.err);
+  CHECK(told.json()["high_m"].get<double>() == doctest::Approx(0.1));
+  const auto net = files.path("a.vasa");
+  const auto made = runProgram({"convert", curve, "-o", net, "--json"});
+  REQUIRE_MESSAGE(made.exit == 0, made.err);
+  CHECK(made.json()["elements"][0]["kind"] == "artery");
+  CHECK(made.json()["summary"]["length_m"].get<double>() == doctest::Approx(0.1));
+  CHECK(holds(runProgram({"edit", curve, "-o", net}).err, "vasa convert makes a network of it"));
+  CHECK(holds(runProgram({"check", curve}).err, "is no scene (.json)"));
+  const auto unit = runProgram({"convert", curve, "--unit", "mm", "-o", net});
+  CHECK(unit.exit == 2);
+  CHECK_MESSAGE(holds(unit.err, "tells its unit and its axes itself"), unit.err);
+}
+
+TEST_CASE("a stent beside its vessel is left out with the reason, and one alone is doubtful") {
+  const Files files;
+  const std::string stent = object("coronary stent", tube(), 800, vec3(0, 5, 0));
+  const auto both = runProgram({"convert", files.write("a.obj", object("LAD", tube(), 1000) + stent), "-o",
+                                files.path("a.vasa"), "--json"});
+  REQUIRE_MESSAGE(both.exit == 0, both.err);
+  REQUIRE(both.json()["left_out"].size() == 1);
+  CHECK(both.json()["left_out"][0]["name"] == "coronary stent");
+  CHECK(both.json()["left_out"][0]["why"] == "device");
+  CHECK_MESSAGE(holds(both.err, "'coronary stent' (device)"), both.err);
+  const auto file = files.write("b.obj", stent);
+  const auto alone = runProgram({"convert", file, "-o", files.path("b.vasa"), "--json"});
+  REQUIRE_MESSAGE(alone.exit == 0, alone.err);
+  CHECK(alone.json()["elements"][0]["status"] == "doubtful");
+  CHECK(holds(alone.json()["elements"][0]["reason"], "its name tells of no vessel (device)"));
+  const auto meant = runProgram({"convert", file, "--kind", "artery", "-o", files.path("b.vasa"), "--json"});
+  CHECK(meant.json()["elements"][0]["status"] == "ok");
+}
+
+TEST_CASE("vessels that lie kilometres away are refused, not rounded") {
+  const Files files;
+  const auto far = files.write("far.obj", object("aorta", tube(), 1, vec3(5000, 0, 0)));
+  const auto net = files.path("a.vasa");
+  const auto metres = runProgram({"convert", far, "--unit", "m", "-o", net});
+  CHECK(metres.exit == 3);
+  CHECK_MESSAGE(
+      holds(metres.err, "far.obj: the vessels lie 5000 m from the origin, where places are rounded"),
+      metres.err);
+  CHECK(!std::filesystem::exists(net));
+}
+
+TEST_CASE("vessels below nodes that are named as limbs are vessels, and a person of pieces is a body") {
+  struct Piece {
+    const char* name;
+    int parent;
+    vec3 place;
+  };
+  const std::vector<Piece> pieces{{"Hips", -1, {0, 1, 0}},           {"Spine", 0, {0, 0.2f, 0}},
+                                  {"Head", 1, {0, 0.4f, 0}},         {"LeftArm", 1, {0.2f, 0.3f, 0}},
+                                  {"LeftForeArm", 3, {0.3f, 0, 0}},  {"LeftHand", 4, {0.25f, 0, 0}},
+                                  {"RightArm", 1, {-0.2f, 0.3f, 0}}, {"RightForeArm", 6, {-0.3f, 0, 0}},
+                                  {"RightHand", 7, {-0.25f, 0, 0}},  {"LeftUpLeg", 0, {0.1f, 0, 0}},
+                                  {"LeftLeg", 9, {0, -0.45f, 0}},    {"LeftFoot", 10, {0, -0.45f, 0}},
+                                  {"RightUpLeg", 0, {-0.1f, 0, 0}},  {"RightLeg", 12, {0, -0.45f, 0}},
+                                  {"RightFoot", 13, {0, -0.45f, 0}}};
+  const Files files;
+  for (const float radius : {0.004f, 0.08f}) {
+    GltfBuilder file;
+    const TriangleMesh mesh = tubeBetween({0, 0, 0}, {0, 0.3f, 0}, radius);
+    std::vector<float> places;
+    std::vector<std::uint32_t> corners;
+    for (const vec3& p : mesh.positions) places.insert(places.end(), {p.x, p.y, p.z});
+    for (const uvec3& t : mesh.triangles) corners.insert(corners.end(), {t.x, t.y, t.z});
+    const int positions = file.floats(places, "VEC3");
+    const Aabb box = mesh.bounds();
+    auto& told = file.document["accessors"][std::size_t(positions)];
+    told["min"] = {box.low.x, box.low.y, box.low.z}, told["max"] = {box.high.x, box.high.y, box.high.z};
+    const int indices = file.accessor(corners, "SCALAR", GltfBuilder::kUnsignedInt, corners.size());
+    file.add("meshes", {{"primitives", {{{"attributes", {{"POSITION", positions}}}, {"indices", indices}}}}});
+    for (const Piece& piece : pieces) {
+      const auto node = file.document["nodes"].size();
+      file.add("nodes", {{"name", piece.name},
+                         {"mesh", 0},
+                         {"translation", {piece.place.x, piece.place.y, piece.place.z}}});
+      if (piece.parent >= 0) file.document["nodes"][std::size_t(piece.parent)]["children"].push_back(node);
+    }
+    file.add("scenes", {{"nodes", {0}}});
+    const auto outcome = runProgram({"info", files.write("limbs.glb", file.glb()), "--json"});
+    REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
+    CHECK(outcome.json()["kind"] == (radius < 0.03f ? "surfaces" : "body"));
+  }
+}
+
+TEST_CASE("a body of two centimetres is warned of") {
+  const Files files;
+  const auto small = runProgram({"info", files.write("a.glb", personGlb({.unitsAMetre = 0.01f}))});
+  REQUIRE_MESSAGE(small.exit == 0, small.err);
+  CHECK_MESSAGE(holds(small.err, "mm large, and glTF is in metres"), small.err);
+}
+
+TEST_CASE(
+    "a clip that scales a joint to nothing is played to its end, and a late frame of a long one is told") {
+  const Files files;
+  std::string swc;
+  for (int i = 0; i <= 10; ++i)
+    swc += std::to_string(i + 1) + " 10 0.02 " + std::to_string(1 + 0.03 * i) + " 0 0.006 " +
+           std::to_string(i > 0 ? i : -1) + "\n";
+  const auto vessel = files.write("v.swc", swc);
+  const auto check = [&](const PersonFile& person, const char* frames) {
+    return runProgram({"check", "--body", files.write("a.glb", personGlb(person)), "--network", vessel,
+                       "--clip", "walk", "--frames", frames});
+  };
+  const auto vanished = check({.vanishes = true}, "58:60");
+  CHECK_MESSAGE((vanished.exit == 0 || vanished.exit == 1), vanished.err);
+  const auto late = check({.seconds = 40}, "1200");
+  CHECK_MESSAGE(late.exit == 0, late.err);
+  CHECK_MESSAGE(
+      holds(late.err, "walk: frame 1200 follows from those before it, of which 1200 are solved first"),
+      late.err);
+}
