@@ -9,6 +9,7 @@
 #include "body/coarser_levels.h"
 #include "body/copied_joints.h"
 #include "body/idle_joints.h"
+#include "body/retarget.h"
 #include "body/rig.h"
 #include "body/skin_recognition.h"
 #include "core/log.h"
@@ -154,6 +155,31 @@ void leaveOutStrays(std::vector<Clip>& clips, const Skeleton& skeleton, const st
           "keys");
     return strays;
   });
+}
+
+// Joints of a person that a clip makes less than half as large, or more than twice: vessels keep their
+// volume, for which there may be no room.
+void tellScaled(const std::vector<Clip>& clips, const Skeleton& skeleton, const std::string& file) {
+  constexpr float kMuch = 2;
+  const HumanoidNames parts = partsOf(skeleton);
+  for (const Clip& clip : clips)
+    for (const JointTracks& tracks : clip.tracks) {
+      const auto& joint = skeleton.joints[tracks.joint.value];
+      const auto much = [&](vec3 scale) {
+        const vec3 share = glm::abs(scale / joint.rest.scale);
+        return std::max({share.x, share.y, share.z}) > kMuch ||
+               std::min({share.x, share.y, share.z}) < 1 / kMuch;
+      };
+      const bool cubic = tracks.scale.interpolation == Interpolation::cubic;
+      bool scaled = false;
+      for (std::size_t k = cubic; k < tracks.scale.values.size(); k += cubic ? 3 : 1)
+        scaled = scaled || much(tracks.scale.values[k]);
+      if (!scaled || parts.of[tracks.joint.value].empty()) continue;
+      logWarning(file + ": the clip \"" + clip.name + "\" scales the joint \"" + joint.name +
+                 "\" to more than twice or less than half of its size: vessels there keep their volume, and "
+                 "take long to be kept apart where that leaves no room");
+      break;
+    }
 }
 
 // Of each joint the first skin that it is one of.
@@ -358,6 +384,7 @@ Body bodyOf(const Asset& asset) {
   body.clips = readClips(asset, joints.jointOfNode);
   if (!joints.fileRest.empty()) holdFilePose(body.clips, joints.skeleton, joints.fileRest);
   leaveOutStrays(body.clips, joints.skeleton, body.name);
+  tellScaled(body.clips, joints.skeleton, body.name);
   body.skeleton = std::move(joints.skeleton);
   for (const auto& joint : body.skeleton.joints)
     if (!std::isfinite(glm::dot(joint.restWorld[3], vec4(1)) + glm::determinant(mat3(joint.restWorld))))

@@ -91,7 +91,7 @@ void addMaterials(const Asset& asset, const Model::Primitive& primitive, const T
     return materials.push_back(std::move(own));  // nothing is drawn with them
   const std::vector<vec3> colours = coloursOf(asset, primitive);
   if (colours.empty()) return materials.push_back(std::move(own));
-  addColourRuns(mesh, first, colours, firstVertex, own, materials);
+  addColourRuns(mesh, first, mesh.triangles.size(), colours, firstVertex, own, materials);
 }
 
 std::optional<vec3> colourTold(std::span<const MeshMaterial> materials) {

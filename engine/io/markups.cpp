@@ -20,6 +20,24 @@ struct BrokenMarkups {
   std::string what;
 };
 
+// Deeply nested lists take most memory for their bytes. Looked for beforehand, as the parser's own call-back
+// makes it go through all of a list with each of its items.
+bool isNestedTooDeeply(std::string_view text) {
+  int depth = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (quoted && text[i] == '\\')
+      ++i;
+    else if (text[i] == '"')
+      quoted = !quoted;
+    else if (!quoted && (text[i] == '[' || text[i] == '{') && ++depth > kDeepestMarkups)
+      return true;
+    else if (!quoted && (text[i] == ']' || text[i] == '}'))
+      --depth;
+  }
+  return false;
+}
+
 const MarkupsJson* member(const MarkupsJson& object, const char* key) {
   const auto found = object.is_object() ? object.find(key) : object.end();
   return found == object.end() ? nullptr : &*found;
@@ -120,11 +138,8 @@ Result<Centrelines> parseMarkups(std::string_view text, const std::string& name,
         name +
         ": holds more than 4 MiB; resample the curve with fewer points (3D Slicer: Markups, Resample)");
   try {
-    const MarkupsJson json =
-        MarkupsJson::parse(text, [](int depth, MarkupsJson::parse_event_t, MarkupsJson&) {
-          if (depth > kDeepestMarkups) throw BrokenMarkups{"is nested too deeply"};
-          return true;
-        });
+    if (isNestedTooDeeply(text)) throw BrokenMarkups{"is nested too deeply"};
+    const MarkupsJson json = MarkupsJson::parse(text);
     Centrelines lines;
     std::string others;
     const MarkupsJson& markups = listOf(json, "markups");

@@ -218,14 +218,22 @@ class ObjReader {
         addFace(cornersOf(face), mesh);
       }
     }
-    if (colours_.size() == positions_.size() && element.materials.size() <= 1 && !mesh.empty()) {
-      const MeshMaterial own = element.materials.empty() ? MeshMaterial{} : element.materials.front();
-      std::vector<vec3> colours;
-      for (const std::uint32_t vertex : used_) colours.push_back(colours_[vertex]);
-      element.materials.clear();
-      addColourRuns(mesh, 0, colours, 0, own, element.materials);
-    }
+    if (colours_.size() == positions_.size()) addColours(element);
     for (const std::uint32_t vertex : used_) numbers_[vertex] = kNone;
+  }
+  // To an element whose vertices are those of used_.
+  void addColours(MeshElement& element) {
+    std::vector<vec3> colours;
+    for (const std::uint32_t vertex : used_) colours.push_back(colours_[vertex]);
+    std::vector<MeshMaterial> named = std::move(element.materials);
+    if (named.empty() || named.front().firstTriangle > 0) named.insert(named.begin(), MeshMaterial{});
+    element.materials.clear();
+    for (std::size_t m = 0; m < named.size(); ++m) {
+      const std::size_t end =
+          m + 1 < named.size() ? named[m + 1].firstTriangle : element.mesh.triangles.size();
+      if (named[m].firstTriangle < end)
+        addColourRuns(element.mesh, named[m].firstTriangle, end, colours, 0, named[m], element.materials);
+    }
   }
   void addFace(std::span<const std::uint32_t> corners, TriangleMesh& mesh) {
     places_.clear(), cut_.clear();

@@ -165,6 +165,9 @@ TEST_CASE(
   };
   const auto vanished = check({.vanishes = true}, "58:60");
   CHECK_MESSAGE((vanished.exit == 0 || vanished.exit == 1), vanished.err);
+  CHECK_MESSAGE(
+      holds(vanished.err, "the clip \"walk\" scales the joint \"chest\" to more than twice or less"),
+      vanished.err);
   const auto late = check({.seconds = 40}, "1200");
   CHECK_MESSAGE(late.exit == 0, late.err);
   CHECK_MESSAGE(

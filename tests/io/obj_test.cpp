@@ -174,6 +174,10 @@ TEST_CASE("colours of vertices tell what an object is drawn with, where all have
   const auto named = coloursOf((red + blue + "usemtl wall\n" + faces).c_str());
   REQUIRE(named.size() == 2);
   CHECK(named[1].name == "wall");
+  const auto each = coloursOf((red + blue + "usemtl a\nf 1 2 3\nusemtl b\nf 4 5 6\n").c_str());
+  REQUIRE(each.size() == 2);
+  CHECK(each[1].name == "b");
+  CHECK(each[1].colour == vec3(0, 0, 1));
   CHECK(coloursOf((red + "v 0 0 1\nv 1 0 1 0 0 1\nv 0 1 1 0 0 1\n" + faces).c_str()).empty());
   CHECK(coloursOf((red + "v 0 0 1 1.0\nv 1 0 1 1.0\nv 0 1 1 1.0\n" + faces).c_str()).empty());
 }
