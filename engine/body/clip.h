@@ -47,7 +47,7 @@ struct Clip {
 Pose samplePose(const Skeleton& skeleton, const Clip& clip, float time);
 void samplePose(const Skeleton& skeleton, const Clip& clip, float time, Pose& pose);
 
-/// Whether the last frame's pose is the first one's, to a millimetre, so that the clip can go round.
+/// Whether the last pose is the first one, to a millimetre, so that the clip can go round.
 bool closes(const Skeleton& skeleton, const Clip& clip);
 
 }  // namespace vasa

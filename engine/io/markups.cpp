@@ -13,7 +13,7 @@ namespace vasa {
 namespace {
 
 using MarkupsJson = nlohmann::json;
-constexpr std::size_t kMostMarkupsBytes = std::size_t(4) << 20;  // parsed it takes up to 27 times as much
+constexpr std::size_t kMostMarkupsBytes = 3'000'000;  // parsed it takes up to 41 times as much
 constexpr int kDeepestMarkups = 16;
 
 struct BrokenMarkups {
@@ -135,8 +135,7 @@ bool isMarkupsFile(const std::filesystem::path& path) {
 Result<Centrelines> parseMarkups(std::string_view text, const std::string& name, VesselKind kind) {
   if (text.size() > kMostMarkupsBytes)
     return badInput(
-        name +
-        ": holds more than 4 MiB; resample the curve with fewer points (3D Slicer: Markups, Resample)");
+        name + ": holds more than 3 MB; resample the curve with fewer points (3D Slicer: Markups, Resample)");
   try {
     if (isNestedTooDeeply(text)) throw BrokenMarkups{"is nested too deeply"};
     const MarkupsJson json = MarkupsJson::parse(text);

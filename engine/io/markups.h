@@ -14,7 +14,7 @@ bool isMarkupsFile(const std::filesystem::path& path);
 /// radii, as its module Extract Centerline makes them. In metres, +Y up: such a file says its unit (mm where
 /// it does not) and its axes (LPS or RAS). Control points without a place are passed over; a radius of zero
 /// is mended as those of .vtp are. Lines are named after the file, of several with a number. Fails with
-/// badInput where there is no curve, where one has no radii, and beyond 4 MiB.
+/// badInput where there is no curve, where one has no radii, and beyond 3 MB.
 Result<Centrelines> readMarkups(const std::filesystem::path& path, VesselKind kind);
 
 /// The same from text. @param name  for messages and lines

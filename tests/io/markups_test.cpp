@@ -73,5 +73,5 @@ TEST_CASE("markups that are no vessels are refused with what to do") {
   expectMarkupsFault(curve(R"("coordinateSystem": "IJK", )"), "neither LPS nor RAS");
   expectMarkupsFault(curve("", R"([4, "a", 2])"), "a radius must be a finite number");
   expectMarkupsFault(std::string(40, '['), "nested too deeply");
-  expectMarkupsFault(std::string((4 << 20) + 1, ' '), "more than 4 MiB");
+  expectMarkupsFault(std::string(3'000'001, ' '), "more than 3 MB");
 }
