@@ -10,6 +10,7 @@
 #include "body/inside.h"
 #include "body/motion_rest.h"
 #include "body/retarget.h"
+#include "body/rib_heads.h"
 #include "body/skin_warp.h"
 #include "body/ties.h"
 #include "body/trunk.h"
@@ -39,21 +40,50 @@ void releaseLonely(const Skeleton& skeleton, std::vector<std::uint32_t>& match) 
       match[j] = kNone;
 }
 
-vec3 centreIn(const Skeleton& skeleton, std::size_t joint) {
-  return vec3(skeleton.joints[joint].restWorld[3]);
+// The joints that stand for the pelvis. Rigs put that of the hips anywhere between femoral heads and lumbar
+// spine, and helpers beside it: a pelvis is where its legs hang on it.
+struct Pelvis {
+  std::vector<std::size_t> joints;  // hips, and what lies between them and a leg
+  std::size_t left = 0, right = 0;  // upper legs
+
+  Pelvis(const Skeleton& skeleton, std::span<const std::uint32_t> match) {
+    const HumanoidNames parts = partsOf(skeleton);
+    const auto named = [&](std::string_view part) {
+      return std::size_t(std::ranges::find(parts.of, part) - parts.of.begin());
+    };
+    const std::size_t hips = named("hips");
+    left = named("leftUpperLeg"), right = named("rightUpperLeg");
+    if (std::max({hips, left, right}) >= match.size() || match[left] == kNone || match[right] == kNone)
+      return;
+    for (const std::size_t leg : {left, right})
+      for (JointId j = skeleton.joints[leg].parent; j.valid() && j.value >= hips;
+           j = skeleton.joints[j.value].parent)
+        joints.push_back(j.value);
+  }
+  void settle(std::vector<vec3>& centres) const {
+    for (const std::size_t joint : joints) centres[joint] = 0.5f * (centres[left] + centres[right]);
+  }
+};
+
+constexpr float kPullBlur = 0.02f;  // of the body's height: about the distance between two ribs
+
+std::vector<vec3> centresAtRest(const Skeleton& skeleton) {
+  std::vector<vec3> centres;
+  for (const auto& joint : skeleton.joints) centres.emplace_back(joint.restWorld[3]);
+  return centres;
 }
 
 // How far from joint a to joint b a joint sits, as a share.
-float shareBetween(const Skeleton& skeleton, std::size_t a, std::size_t b, std::size_t joint) {
-  const vec3 way = centreIn(skeleton, b) - centreIn(skeleton, a);
-  return glm::dot(centreIn(skeleton, joint) - centreIn(skeleton, a), way) /
-         std::max(glm::dot(way, way), 1e-12f);
+float shareBetween(std::span<const vec3> centres, std::size_t a, std::size_t b, std::size_t joint) {
+  const vec3 way = centres[b] - centres[a];
+  return glm::dot(centres[joint] - centres[a], way) / std::max(glm::dot(way, way), 1e-12f);
 }
 
 // Releases joints between the two ends of a chain until no part of it is stretched or squeezed by more than
 // kMostUneven beside the whole of it.
-void releaseUneven(const Skeleton& from, const Skeleton& to, std::size_t first, std::size_t last,
-                   std::vector<std::uint32_t>& match) {
+// @param own, other  the first body's joints, and those matched with them
+void releaseUneven(const Skeleton& from, std::span<const vec3> own, std::span<const vec3> other,
+                   std::size_t first, std::size_t last, std::vector<std::uint32_t>& match) {
   constexpr float kMostUneven = 1.15f;
   struct Stop {
     std::size_t joint;
@@ -62,16 +92,16 @@ void releaseUneven(const Skeleton& from, const Skeleton& to, std::size_t first, 
   std::vector<Stop> stops;
   for (JointId j{std::uint32_t(last)}; j.valid(); j = from.joints[j.value].parent) {
     if (match[j.value] != kNone)
-      stops.push_back({j.value, shareBetween(from, first, last, j.value),
-                       shareBetween(to, match[first], match[last], match[j.value])});
+      stops.push_back(
+          {j.value, shareBetween(own, first, last, j.value), shareBetween(other, first, last, j.value)});
     if (j.value == first) break;
   }
   while (stops.size() > 2) {
     std::size_t worst = 0;
     float most = std::log(kMostUneven);
     for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
-      const float own = stops[i].own - stops[i + 1].own, other = stops[i].other - stops[i + 1].other;
-      const float uneven = own > 0 && other > 0 ? std::abs(std::log(other / own)) : 1e9f;
+      const float here = stops[i].own - stops[i + 1].own, there = stops[i].other - stops[i + 1].other;
+      const float uneven = here > 0 && there > 0 ? std::abs(std::log(there / here)) : 1e9f;
       if (uneven > most) most = uneven, worst = i + 1;
     }
     if (worst == 0) return;
@@ -85,35 +115,41 @@ void releaseUneven(const Skeleton& from, const Skeleton& to, std::size_t first, 
   }
 }
 
-// Rigs put the joints of a spine at other vertebrae, and those that only twist a limb at other places along
-// it, under the same names: the former go with the trunk as a whole, the latter with the limb.
-void releaseMisplaced(const Skeleton& from, const Skeleton& to, std::vector<std::uint32_t>& match) {
+// Rigs put the joints of a spine at other vertebrae, those that only twist a limb at other places along it,
+// and that of a palm at the wrist or the knuckles, under the same names: they go with the trunk, the limb or
+// the hand as a whole.
+void releaseMisplaced(const Skeleton& from, std::span<const vec3> own, std::span<const vec3> other,
+                      std::vector<std::uint32_t>& match) {
   const HumanoidNames parts = partsOf(from);
   const auto release = [&](const std::string& start, const std::string& end) {
     const auto a = std::size_t(std::ranges::find(parts.of, start) - parts.of.begin()),
                b = std::size_t(std::ranges::find(parts.of, end) - parts.of.begin());
     if (a < match.size() && b < match.size() && match[a] != kNone && match[b] != kNone)
-      releaseUneven(from, to, a, b, match);
+      releaseUneven(from, own, other, a, b, match);
   };
   release("hips", "neck"), release("neck", "head");
   for (const std::string side : {"left", "right"})
     release(side + "LowerArm", side + "Hand"), release(side + "UpperArm", side + "LowerArm");
+  for (std::size_t finger = 0; finger < match.size(); ++finger) {
+    const JointId palm = from.joints[finger].parent;
+    const JointId hand = palm.valid() ? from.joints[palm.value].parent : palm;
+    const auto onPalm = [&](const Skeleton::Joint& joint) { return joint.parent == palm; };
+    if (hand.valid() && parts.of[hand.value].ends_with("Hand") && match[finger] != kNone &&
+        match[hand.value] != kNone && std::ranges::count_if(from.joints, onPalm) > 1)
+      releaseUneven(from, own, other, hand.value, finger, match);
+  }
 }
 
 // How long the ways from each matched joint to the matched one before it are in all. Unlike how far apart
 // joints lie, it does not change with how the arms are held at rest.
-float linksLength(const Skeleton& skeleton, const Skeleton& from, std::span<const std::uint32_t> match,
-                  bool matched) {
+float linksLength(std::span<const vec3> centres, const Skeleton& from, std::span<const std::uint32_t> match) {
   double sum = 0;
   for (std::size_t j = 0; j < match.size(); ++j) {
     if (match[j] == kNone) continue;
     JointId before = from.joints[j].parent;
     while (before.valid() && match[before.value] == kNone) before = from.joints[before.value].parent;
     if (!before.valid()) continue;
-    const auto centre = [&](std::size_t joint) {
-      return dvec3(centreIn(skeleton, matched ? match[joint] : joint));
-    };
-    sum += glm::distance(centre(j), centre(before.value));
+    sum += glm::distance(dvec3(centres[j]), dvec3(centres[before.value]));
   }
   return float(sum);
 }
@@ -166,7 +202,8 @@ class Carrier {
     match_ = std::move(pairs->source);
     findMissing();
     releaseLonely(from_.skeleton, match_);
-    releaseMisplaced(from_.skeleton, to_.skeleton, match_);
+    findCentres();
+    releaseMisplaced(from_.skeleton, own_, other_, match_);
     auto pose = retargeted(standingStill(to_), from_, map);
     if (!pose) return pose.error();
     if (auto posed = poseAll(pose->clip); !posed) return posed.error();
@@ -174,6 +211,7 @@ class Carrier {
     namePressed();
     measureSizes();
     stretchAll();
+    followRibs();
     warpToSkin();
     out_.points.assign(points_.begin(), points_.begin() + std::ptrdiff_t(network_.points().size()));
     for (vec4& p : out_.points) p.w *= out_.radiusFactor;
@@ -184,11 +222,23 @@ class Carrier {
   }
 
  private:
+  void findCentres() {
+    const Pelvis pelvis(from_.skeleton, match_);
+    for (std::size_t j = 0; j < match_.size(); ++j) {
+      own_.emplace_back(from_.skeleton.joints[j].restWorld[3]);
+      other_.emplace_back(match_[j] == kNone ? vec3(0) : vec3(to_.skeleton.joints[match_[j]].restWorld[3]));
+    }
+    pelvis.settle(own_), pelvis.settle(other_);
+  }
+
   // Vessels and skin are bound together, so that they move alike.
   Result<void> poseAll(const Clip& clip) {
     skin_ = skinAtRest(from_);
     std::vector<vec4> rest(network_.points().begin(), network_.points().end());
     for (const vec3& p : skin_.positions) rest.push_back(vec4(p, 0));
+    headsWanted_ = ribHeads(to_);
+    if (!headsWanted_.empty())
+      for (const vec3& p : ribHeads(from_)) rest.push_back(vec4(p, 0));
     std::vector<Tie> ties = tiesOf(network_);
     // Among the skin's points a few vessels would not be noticed.
     const auto spines = deriveSpines(from_.skeleton, from_.name);
@@ -263,19 +313,18 @@ class Carrier {
         ++out_.jointsMatched;
       else
         out_.jointsFree.push_back(from_.skeleton.joints[j].name);
-    out_.radiusFactor = linksLength(to_.skeleton, from_.skeleton, match_, true) /
-                        linksLength(from_.skeleton, from_.skeleton, match_, false);
+    out_.radiusFactor =
+        linksLength(other_, from_.skeleton, match_) / linksLength(own_, from_.skeleton, match_);
+    for (const mat4& joint : pose_.world) posed_.emplace_back(joint[3]);
+    Pelvis(from_.skeleton, match_).settle(posed_);
   }
-
-  vec3 centreOf(std::uint32_t joint) const { return vec3(pose_.world[joint][3]); }
-  vec3 targetOf(std::uint32_t joint) const { return vec3(to_.skeleton.joints[match_[joint]].restWorld[3]); }
 
   // The next matched joint along the same limb.
   std::uint32_t nextMatched(std::uint32_t joint) const {
     for (JointId next = binding_.spines.joints[joint].next; next.valid();
          next = binding_.spines.joints[next.value].next)
       if (match_[next.value] != kNone &&
-          glm::distance(centreOf(next.value), centreOf(joint)) > 0.01f * out_.radiusFactor)
+          glm::distance(posed_[next.value], posed_[joint]) > 0.01f * out_.radiusFactor)
         return next.value;
     return kNone;
   }
@@ -289,11 +338,10 @@ class Carrier {
         continue;
       }
       Stretch& own = all[j];
-      own.centre = centreOf(j), own.target = targetOf(j);
+      own.centre = posed_[j], own.target = other_[j];
       const std::uint32_t next = nextMatched(j);
       if (next != kNone)
-        own.linear =
-            turnAndStretch(centreOf(next) - own.centre, targetOf(next) - own.target, out_.radiusFactor);
+        own.linear = turnAndStretch(posed_[next] - own.centre, other_[next] - own.target, out_.radiusFactor);
       else
         own.linear = mat3(out_.radiusFactor);
     }
@@ -326,6 +374,42 @@ class Carrier {
     }
   }
 
+  // People of one height differ by vertebrae in where a chest ends. Where the bones of both tell the heads of
+  // their ribs, these come to lie at one another's height, and what is around them goes with the nearest
+  // ones; the joints of limbs, pelvis and neck stay. How a back is curved the joints and the skin tell.
+  void followRibs() {
+    const std::size_t first = network_.points().size() + skin_.positions.size();
+    if (headsWanted_.empty() || points_.size() - first != headsWanted_.size()) return;
+    struct Pull {
+      vec3 place, move;
+    };
+    const Trunk trunk = findTrunk(rigOf(to_.skeleton));
+    const vec3 up = glm::normalize(trunk.way(centresAtRest(to_.skeleton)));
+    const auto height = [&](vec3 p) { return glm::dot(p, up); };
+    std::vector<Pull> pulls;
+    for (std::size_t k = 0; k < headsWanted_.size(); ++k) {
+      const vec3 place(points_[first + k]);
+      pulls.push_back({place, height(headsWanted_[k] - place) * up});
+    }
+    const float lowest = height(std::ranges::min(headsWanted_, {}, height));
+    for (std::size_t j = 0; j < match_.size(); ++j) {
+      const bool amongRibs =
+          std::ranges::find(trunk.joints, match_[j]) != trunk.joints.end() && height(other_[j]) > lowest;
+      if (match_[j] != kNone && !amongRibs) pulls.push_back({other_[j], vec3(0)});
+    }
+    const float blur = kPullBlur * to_.height();
+    parallelFor(first, 64, [&](std::size_t i) {
+      vec3 sum(0);
+      float weights = 0;
+      for (const Pull& pull : pulls) {
+        const vec3 way = pull.place - vec3(points_[i]);
+        const float near = 1 / (glm::dot(way, way) + blur * blur);
+        sum += near * near * pull.move, weights += near * near;
+      }
+      points_[i] += vec4(sum / weights, 0);
+    });
+  }
+
   void warpToSkin() {
     TriangleMesh target = skinAtRest(to_);
     if (skin_.empty() || target.empty()) return;
@@ -350,6 +434,9 @@ class Carrier {
   const Body &from_, &to_;
   std::string name_;
   std::vector<std::uint32_t> match_;  // of each joint of the first body
+  std::vector<vec3> own_, other_;     // centres of the first body's joints, of those matched with them ...
+  std::vector<vec3> posed_;           // ... and of the first body's as the other one stands
+  std::vector<vec3> headsWanted_;     // of the second body's ribs; none where bones do not tell
   std::vector<bool> missing_;         // which of them belong to limbs that the other body lacks
   Binding binding_;
   Pose pose_;

@@ -29,12 +29,14 @@ struct CarriedNetwork {
 ///
 /// Method: the first body is bound to its vessels and posed as the other one stands at rest, so that limbs
 /// bend as in any motion. Then each joint's surroundings are stretched along its link and across it so that
-/// joints come to lie on joints, blended by the same shares; joints of the trunk and of a limb that would
-/// stretch a part of it by over 15 % beside the whole are left out. Last, where both have a skin, what lies
-/// between the first one's (carried the same way) and the other's nearest skin is spread into the body, more
-/// the nearer a point is to it, and points that are then less deep below it than they were (and than their
-/// radius) are moved in, their neighbours along the vessel with them. Radii change as the skeletons' sizes
-/// do.
+/// joints come to lie on joints, blended by the same shares; joints of the trunk, of a limb and of a palm
+/// that would stretch a part of it by over 15 % beside the whole are left out, and a pelvis is where the legs
+/// hang on it, wherever the joint of the hips is. Where the bones of both bodies tell twelve pairs of ribs,
+/// their heads come to lie on one another, with what is around them (inverse distances, Shepard 1968). Last,
+/// where both have a skin, what lies between the first one's (carried the same way) and the other's nearest
+/// skin is spread into the body, more the nearer a point is to it, and points that are then less deep below
+/// it than they were (and than their radius) are moved in, their neighbours along the vessel with them. Radii
+/// change as the skeletons' sizes do.
 ///
 /// Fails with badInput as binding does, and where the joints do not match.
 /// @param name  of the network, for messages

@@ -8,8 +8,10 @@
 #include "body/strain.h"
 #include "body/strain_limit.h"
 #include "body/surface_carry.h"
+#include "mesh/components.h"
 #include "mesh/weld.h"
 #include "network/sample_network.h"
+#include "support/meshes.h"
 
 using namespace vasa;
 using namespace vasa::test;
@@ -33,6 +35,46 @@ Network archNetwork() {
   auto network = builder.build(1.75f);
   if (!network.ok()) FAIL(network.error().message);
   return std::move(*network);
+}
+
+// A joint elsewhere, all that hangs on it where it was: another rig of the same person.
+Body withJointMoved(Body body, std::string_view name, vec3 by) {
+  auto& joints = body.skeleton.joints;
+  const JointId moved = body.skeleton.find(name);
+  joints[moved.value].restWorld[3] += vec4(by, 0);
+  joints[moved.value].rest.translation += by;
+  for (auto& joint : joints)
+    if (joint.parent == moved) joint.rest.translation -= by;
+  joints[moved.value].inverseBind = glm::inverse(joints[moved.value].restWorld);
+  return body;
+}
+
+// The doll with a spine of boxes and twelve pairs of ribs beside it.
+Body ribbedDoll(float lowestRib, float pitch) {
+  Body body = dollBody("cmu");
+  SkinnedMesh bones;
+  bones.name = "bones";
+  const auto add = [&](vec3 centre, vec3 half) {
+    const float y = centre.y;
+    const JointId carrier = body.skeleton.find(y < 0.9f    ? "LeftFoot"
+                                               : y < 1.2f  ? "LowerBack"
+                                               : y < 1.45f ? "Spine"
+                                                           : "Head");
+    const SkinnedMesh box = boxMesh("bones", centre - half, centre + half);
+    appendMesh(bones.mesh, box.mesh);
+    bones.normals.insert(bones.normals.end(), box.normals.begin(), box.normals.end());
+    bones.influences.insert(bones.influences.end(), box.normals.size(),
+                            {{std::uint16_t(carrier.value)}, {1, 0, 0, 0}});
+  };
+  for (int k = 0; k < 12; ++k) {
+    const float y = lowestRib + pitch * float(k);
+    add({0, y, -0.01f}, {0.02f, 0.4f * pitch, 0.02f});
+    for (const float side : {1.0f, -1.0f}) add({0.061f * side, y, -0.01f}, {0.04f, 0.4f * pitch, 0.02f});
+  }
+  add({0, 1.65f, 0}, {0.07f, 0.1f, 0.09f});
+  add({0.09f, 0.03f, 0.05f}, {0.04f, 0.03f, 0.1f});
+  body.meshes.push_back(std::move(bones));
+  return body;
 }
 
 float worstAway(std::span<const vec4> points, std::span<const vec4> wanted) {
@@ -67,16 +109,7 @@ TEST_CASE("strain is told by pieces, beside the factor of the whole, the worst v
 
 TEST_CASE("joints of a spine that sit at other vertebrae stretch no vessel") {
   const Body from = dollBody("vrm");
-  Body to = from;
-  // The chest's joint six centimetres lower, all that hangs on it where it was: another rig of the same
-  // person.
-  const std::uint32_t chest = from.skeleton.find("chest").value;
-  auto& joints = to.skeleton.joints;
-  joints[chest].restWorld[3].y -= 0.06f;
-  joints[chest].rest.translation.y -= 0.06f;
-  for (auto& joint : joints)
-    if (joint.parent.value == chest) joint.rest.translation.y += 0.06f;
-  joints[chest].inverseBind = glm::inverse(joints[chest].restWorld);
+  const Body to = withJointMoved(from, "chest", vec3(0, -0.06f, 0));
   const Network network = archNetwork();
   const auto carried = carryNetwork(network, from, to, "arch.vasa");
   if (!carried.ok()) FAIL(carried.error().message);
@@ -86,6 +119,63 @@ TEST_CASE("joints of a spine that sit at other vertebrae stretch no vessel") {
     CHECK(strain.most < 1.05f);
   }
   CHECK(worstAway(carried->points, network.points()) < 0.01f);
+}
+
+TEST_CASE("a pelvis is where its legs hang on it, wherever a rig puts the joint of the hips") {
+  const Body from = dollBody("vrm");
+  NetworkBuilder builder;
+  builder.addVessel({"iliac artery"}, straightVessel({0.02f, 0.99f, 0}, {0.07f, 0.91f, 0.02f}, 0.004f, 8));
+  builder.addVessel({"median sacral"}, straightVessel({0, 1.0f, -0.03f}, {0, 0.9f, -0.05f}, 0.002f, 8));
+  const auto network = builder.build(1.75f);
+  REQUIRE(network.ok());
+  for (const vec3 by : {vec3(0, 0.05f, 0), vec3(0, -0.05f, 0), vec3(0, 0.03f, -0.04f)}) {
+    const auto carried = carryNetwork(*network, from, withJointMoved(from, "hips", by), "iliac.vasa");
+    if (!carried.ok()) FAIL(carried.error().message);
+    CHECK(worstAway(carried->points, network->points()) < 0.004f);
+  }
+}
+
+TEST_CASE("a chest that ends lower takes the vessels of its ribs down, and those of pelvis and neck stay") {
+  NetworkBuilder builder;
+  builder.addVessel({"intercostal"},
+                    straightVessel({0.025f, 1.13f, 0.02f}, {0.06f, 1.13f, 0.02f}, 0.001f, 8));
+  builder.addVessel({"iliac"}, straightVessel({0.02f, 0.94f, 0}, {0.08f, 0.91f, 0}, 0.004f, 8));
+  builder.addVessel({"carotid"}, straightVessel({0.03f, 1.45f, 0}, {0.03f, 1.53f, 0}, 0.003f, 8));
+  const auto network = builder.build(1.75f);
+  REQUIRE(network.ok());
+  const auto carried =
+      carryNetwork(*network, ribbedDoll(1.13f, 0.022f), ribbedDoll(1.1f, 0.0247f), "chest.vasa");
+  if (!carried.ok()) FAIL(carried.error().message);
+  std::vector<vec4> wanted(network->points().begin(), network->points().end());
+  for (vec4& p : std::span(wanted).first(network->vessels()[0].pointCount)) p.y -= 0.03f;
+  CHECK(worstAway(carried->points, wanted) < 0.009f);
+}
+
+TEST_CASE("the joint of a palm may sit at the wrist or at the knuckles") {
+  Body from = dollBody("vrm");
+  auto& joints = from.skeleton.joints;
+  const JointId hand = from.skeleton.find("leftHand");
+  const vec3 wrist(joints[hand.value].restWorld[3]);
+  const vec3 along =
+      glm::normalize(wrist - vec3(joints[from.skeleton.find("leftLowerArm").value].restWorld[3]));
+  const auto add = [&](const char* name, JointId parent, vec3 place) {
+    Skeleton::Joint joint{name, parent, {}, glm::translate(mat4(1), place), {}};
+    joint.rest.translation = place - vec3(joints[parent.value].restWorld[3]);
+    joint.inverseBind = glm::inverse(joint.restWorld);
+    joints.push_back(joint);
+    return JointId{std::uint32_t(joints.size() - 1)};
+  };
+  const JointId palm = add("leftPalm", hand, wrist + 0.02f * along);
+  for (const char* finger : {"leftIndexProximal", "leftMiddleProximal"})
+    add(finger, palm, wrist + 0.09f * along + vec3(0, 0, finger[4] == 'I' ? 0.01f : -0.01f));
+  NetworkBuilder builder;
+  builder.addVessel({"palmar artery"}, straightVessel(wrist, wrist + 0.085f * along, 0.001f, 8));
+  const auto network = builder.build(1.75f);
+  REQUIRE(network.ok());
+  const auto carried =
+      carryNetwork(*network, from, withJointMoved(from, "leftPalm", 0.04f * along), "palm.vasa");
+  if (!carried.ok()) FAIL(carried.error().message);
+  CHECK(worstAway(carried->points, network->points()) < 0.004f);
 }
 
 TEST_CASE("vessels of a limb that the other body lacks are named") {

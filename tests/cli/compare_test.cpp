@@ -11,6 +11,8 @@ TEST_CASE("a network compared with itself has all its vessels in common, in the 
   const auto report = outcome.json();
   CHECK(report["summary"]["common"].get<int>() == int(report["vessels"].size()));
   CHECK(report["summary"]["common"].get<int>() >= 450);
+  CHECK(report["summary"]["length_within_15_percent"].get<double>() == doctest::Approx(1));
+  CHECK(report["summary"]["apart_mean_m"].get<double>() < 1e-5);
   CHECK(report["summary"]["length_ratio_median"].get<double>() == doctest::Approx(1));
   for (const auto& vessel : report["vessels"]) CHECK(vessel["distance_m"].get<double>() < 1e-5);
   const auto table = runProgram({"compare", vessels, vessels, "--rows", "3"});
