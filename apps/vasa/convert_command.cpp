@@ -84,7 +84,7 @@ auto readInUnit(const Options& options, Read read) -> decltype(read(1.0)) {
   auto found = read(1.0);
   if (!found) return found;
   const Aabb bounds = boundsOf(*found);
-  if (likelyUnit(bounds) == 1) return found;
+  if (likelyUnit(bounds) == 1 || std::ranges::all_of(options.meshes, isMarkupsFile)) return found;
   if (std::ranges::all_of(options.meshes, isGltfFile)) {
     logWarning(
         fmt::format("glTF is in metres, and the vessels look as if {}; --unit mm reads it as millimetres",
@@ -224,9 +224,9 @@ Result<void> run(const Globals& globals, const Options& options) {
       lines ? Result(std::vector<SourceElement>())
             : readInUnit(options, [&](double metresPerUnit) { return readSources(options, metresPerUnit); });
   if (!sources) return sources.error();
-  if (auto near = checkReach(boundsOf(*sources), options.meshes.front()); !near) return near.error();
   std::vector<LeftOut> leftOut;
   if (options.kind.empty()) leftOut = leaveOutNamedOthers(*sources);  // else they are told to be vessels
+  if (auto near = checkReach(boundsOf(*sources), options.meshes.front()); !near) return near.error();
   RestRepair repair;
   settings.mend = [&](const Network& network) {
     repair = options.part ? separateAtRest(network) : overlapsAtRest(network);

@@ -1,6 +1,10 @@
 #include "viewer/turned_clip.h"
 
+#include <vector>
+
 #include <glm/gtx/matrix_decompose.hpp>
+
+#include "body/clip_end.h"
 
 namespace vasa::viewer {
 namespace {
@@ -24,9 +28,7 @@ Clip turnedClip(const Skeleton& skeleton, const Clip* clip, std::span<const Join
     made.framesPerSecond = clip->framesPerSecond;
   }
   for (std::uint32_t j = 0; j < skeleton.joints.size(); ++j) made.tracks.push_back({.joint = JointId{j}});
-  const std::uint32_t frames = clip ? clip->frameCount() : 1;
-  for (std::uint32_t frame = 0; frame < frames; ++frame) {
-    const float time = made.timeOfFrame(frame);
+  for (const float time : clip ? momentsOf(*clip) : std::vector{made.start}) {
     const Pose pose = turned(skeleton, clip ? samplePose(skeleton, *clip, time) : restPose(skeleton), turns);
     for (std::uint32_t j = 0; j < skeleton.joints.size(); ++j) {
       const JointId parent = skeleton.joints[j].parent;

@@ -167,7 +167,8 @@ float skinReach(const Body& body, std::size_t joint) {
     for (const uvec3& triangle : mesh.triangles)
       for (int k = 0; k < 3; ++k)
         if (const SkinInfluence& by = skinned.influences[triangle[k]]; own[by.joints[by.heaviest()]])
-          reach = std::max(reach, glm::distance(mesh.positions[triangle[k]], centreIn(body.skeleton, joint)));
+          reach = std::max(reach, glm::distance(mesh.positions[triangle[k]],
+                                                vec3(body.skeleton.joints[joint].restWorld[3])));
   }
   return reach;
 }
@@ -224,6 +225,7 @@ class Carrier {
  private:
   void findCentres() {
     const Pelvis pelvis(from_.skeleton, match_);
+    own_.clear(), other_.clear();
     for (std::size_t j = 0; j < match_.size(); ++j) {
       own_.emplace_back(from_.skeleton.joints[j].restWorld[3]);
       other_.emplace_back(match_[j] == kNone ? vec3(0) : vec3(to_.skeleton.joints[match_[j]].restWorld[3]));
@@ -257,13 +259,15 @@ class Carrier {
   void findMissing() {
     const HumanoidNames parts = partsOf(from_.skeleton);
     missing_.assign(match_.size(), false);
-    const float size = linksLength(to_.skeleton, from_.skeleton, match_, true) /
-                       std::max(linksLength(from_.skeleton, from_.skeleton, match_, false), 1e-6f);
+    findCentres();
+    const float size = linksLength(other_, from_.skeleton, match_) /
+                       std::max(linksLength(own_, from_.skeleton, match_), 1e-6f);
     // Without joints of its own a limb may be there all the same, moved by its upper part's alone.
     const auto isOfOneBone = [&](const std::string& upper) {
       const auto part = std::size_t(std::ranges::find(parts.of, upper) - parts.of.begin());
-      return part < match_.size() && match_[part] != kNone &&
-             skinReach(to_, match_[part]) > kWholeLimb * size * skinReach(from_, part);
+      if (part >= match_.size() || match_[part] == kNone) return false;
+      const float reach = skinReach(from_, part);
+      return reach > 0 && skinReach(to_, match_[part]) > kWholeLimb * size * reach;
     };
     const auto look = [&](const std::string& limb, const std::string& upper,
                           std::initializer_list<std::string> told) {

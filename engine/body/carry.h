@@ -32,11 +32,11 @@ struct CarriedNetwork {
 /// joints come to lie on joints, blended by the same shares; joints of the trunk, of a limb and of a palm
 /// that would stretch a part of it by over 15 % beside the whole are left out, and a pelvis is where the legs
 /// hang on it, wherever the joint of the hips is. Where the bones of both bodies tell twelve pairs of ribs,
-/// their heads come to lie on one another, with what is around them (inverse distances, Shepard 1968). Last,
-/// where both have a skin, what lies between the first one's (carried the same way) and the other's nearest
-/// skin is spread into the body, more the nearer a point is to it, and points that are then less deep below
-/// it than they were (and than their radius) are moved in, their neighbours along the vessel with them. Radii
-/// change as the skeletons' sizes do.
+/// their heads come to lie near one another's height, with what is around them (inverse distances, Shepard
+/// 1968). Last, where both have a skin, what lies between the first one's (carried the same way) and the
+/// other's nearest skin is spread into the body, more the nearer a point is to it, and points that are then
+/// less deep below it than they were (and than their radius) are moved in, their neighbours along the vessel
+/// with them. Radii change as the skeletons' sizes do.
 ///
 /// Fails with badInput as binding does, and where the joints do not match.
 /// @param name  of the network, for messages

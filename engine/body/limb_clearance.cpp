@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "body/clip_end.h"
 #include "body/joint_motion.h"
 #include "body/limb_flesh.h"
 #include "body/skin_field.h"
@@ -56,11 +57,12 @@ class LimbClearing {
   // @param share  of the turn that is made
   ClearedLimb run(Clip& clip, float share) {
     ClearedLimb told{.joint = body_.skeleton.joints[limb_.top.value].name};
-    const std::uint32_t frames = clip.frameCount();
+    const std::vector<float> times = momentsOf(clip);
+    const std::size_t frames = times.size();
     unturned_.assign(frames, {});
     std::vector<float> depths(frames);
     const auto stance = [&](std::size_t f) {
-      return stanceIn(samplePose(body_.skeleton, clip, clip.timeOfFrame(std::uint32_t(f))), unturned_[f]);
+      return stanceIn(samplePose(body_.skeleton, clip, times[f]), unturned_[f]);
     };
     parallelFor(frames, 1, [&](std::size_t f) { depths[f] = deepest(stance(f), vec3(0)).depth; });
     told.before = *std::ranges::max_element(depths);
@@ -84,7 +86,7 @@ class LimbClearing {
     told.after = *std::ranges::max_element(depths);
     told.left = std::uint32_t(std::ranges::count_if(depths, [](float d) { return d > kFleshGives; }));
     for (vec3& turn : turns) told.turn = std::max(told.turn, glm::length(turn *= share));
-    turnTop(clip, turns);
+    turnTop(clip, times, turns);
     return told;
   }
 
@@ -166,17 +168,17 @@ class LimbClearing {
   }
 
   // Keys at the frames: between its own keys a clip may bend otherwise, but frames are what is shown.
-  void turnTop(Clip& clip, const std::vector<vec3>& turns) const {
+  void turnTop(Clip& clip, const std::vector<float>& times, const std::vector<vec3>& turns) const {
     const auto& joints = body_.skeleton.joints;
     const JointId above = joints[limb_.top.value].parent;
     Track<quat> track;
-    for (std::uint32_t f = 0; f < turns.size(); ++f) {
-      const Pose pose = samplePose(body_.skeleton, clip, clip.timeOfFrame(f));
+    for (std::size_t f = 0; f < turns.size(); ++f) {
+      const Pose pose = samplePose(body_.skeleton, clip, times[f]);
       const quat parent = rotationOf(above.valid() ? pose.world[above.value] : body_.skeleton.rootTransform);
       const quat world = turnOf(turns[f]) * rotationOf(pose.world[limb_.top.value]);
       quat local = glm::normalize(glm::conjugate(parent) * world);
       if (!track.values.empty() && glm::dot(track.values.back(), local) < 0) local = -local;
-      track.times.push_back(clip.timeOfFrame(f));
+      track.times.push_back(times[f]);
       track.values.push_back(local);
     }
     const auto of =
@@ -215,7 +217,7 @@ std::vector<ClearedLimb> keepLimbsClear(const Body& body, std::span<Clip> clips)
     if (clip.frameCount() <= kMostClearedFrames) looked.push_back(&clip);
 
   // Legs first: arms keep clear of them as they go then. The left one makes half of the way out of the right
-  // one, and that one the rest.
+  // one, and that one the rest; what only one of them meets is mended last.
   if (std::vector<LimbPlaces> legs = legPlaces(body, *skin, rig); legs.size() == 2) {
     const auto fleshOf = [&](const LimbPlaces& leg) {
       std::vector<char> others = hangingOn(rig, {&leg, 1});
@@ -227,14 +229,17 @@ std::vector<ClearedLimb> keepLimbsClear(const Body& body, std::span<Clip> clips)
     settle(legs[1], left);
     for (Clip* clip : looked) {
       ClearedLimb& both =
-          told.emplace_back(LimbClearing(body, *skin, right, legs[0], kMostLegTurn).run(*clip, 0.5f));
-      both.clip = clip->name;
-      both.other = body.skeleton.joints[legs[1].top.value].name;
-      if (both.frames == 0) continue;  // the right one keeps clear of the left one, then
+          told.emplace_back(LimbClearing(body, *skin, right, legs[0], 2 * kMostLegTurn).run(*clip, 0.5f));
       const ClearedLimb second = LimbClearing(body, *skin, left, legs[1], kMostLegTurn).run(*clip, 1);
-      both.left = second.left;
-      both.after = second.after;
-      both.turn += second.turn;
+      both.clip = clip->name;
+      both.other = second.joint;
+      both.frames = std::max(both.frames, second.frames);
+      both.before = std::max(both.before, second.before);
+      if (both.frames == 0) continue;
+      const ClearedLimb third = LimbClearing(body, *skin, right, legs[0], kMostLegTurn).run(*clip, 1);
+      both.left = std::max(second.left, third.left);
+      both.after = std::max(second.after, third.after);
+      both.turn += second.turn + third.turn;
     }
   }
   std::vector<LimbPlaces> arms = armPlaces(body, *skin, rig);

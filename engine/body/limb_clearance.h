@@ -14,7 +14,7 @@ struct ClearedLimb {
   std::uint32_t frames = 0;      ///< in which its skin lay deeper in the other's than at rest, by kFleshGives
   std::uint32_t left = 0;        ///< in which it still does
   float before = 0, after = 0;   ///< [m] depth, at most
-  float turn = 0;                ///< [rad] at most; of legs, of both together
+  float turn = 0;                ///< [rad] at most; of legs, the sum of both
 };
 
 /// Flesh that is pressed on gives way by as much [m]. Vessels lie deeper, but for the smallest.

@@ -106,6 +106,7 @@ float Flesh::weightOf(std::uint32_t joint, std::uint32_t triangle) const {
 
 void Flesh::lookFrom(std::size_t host, const mat4& toRest, vec3 place, Depth& found) const {
   const vec3 atRest(toRest * vec4(place, 1));
+  if (!std::isfinite(glm::dot(atRest, atRest))) return;  // a joint that a clip scales to nothing
   if (const float aside = hosts_[host].box.distance(atRest); aside > 0) {
     found.depth = std::max(found.depth, -aside);
     return;

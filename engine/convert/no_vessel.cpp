@@ -21,26 +21,35 @@ struct Names {
 constexpr std::array kInVessels{
     Names{NoVessel::device, "English",
           "stent, stents, stentgraft, catheter, catheters, guidewire, guide wire, pacemaker, electrode, "
-          "coils, vena cava filter, ivc filter"},
-    Names{NoVessel::device, "others",
-          "katheter, elektrode, herzschrittmacher, endoprothese, cateter, catetere, 支架, ステント, "
-          "스텐트, стент"},
-    Names{NoVessel::finding, "English",
-          "thrombus, thrombi, thrombosis, clot, clots, embolus, emboli, calcification, calcifications, "
-          "calc, plaque, plaques, hematoma, haematoma"},
-    Names{NoVessel::finding, "others",
-          "gerinnsel, *verkalkung*, calcificacion, calcificaciones, calcificacao, calcificacoes, "
-          "calcificazione, calcificazioni, trombo, trombi, caillot, 血栓, 钙化, 鈣化, 石灰化, 혈전, тромб"},
-    Names{NoVessel::organ, "English", "lymph node, lymph nodes"},
+          "coil, coils, clip, clips, prosthesis, cava filter, ivc filter"},
+    Names{
+        NoVessel::device, "others",
+        "katheter, elektrode, herzschrittmacher, endoprothese, endoprotesis, cateter, catetere, 支架, ステント, "
+        "스텐트, стент, Стент"},
+    Names{
+        NoVessel::finding, "English",
+        "thrombus, thrombi, thrombosis, clot, clots, embolus, emboli, embolism*, calcification, calcifications, "
+        "calc, plaque, plaques, hematoma, haematoma"},
+    Names{
+        NoVessel::finding, "others",
+        "gerinnsel, *verkalkung*, calcificacion, calcificaciones, calcificacao, calcificacoes, "
+        "calcificazione, calcificazioni, trombo, trombi, caillot, 血栓, 钙化, 鈣化, 石灰化, 혈전, тромб, Тромб"},
+    Names{NoVessel::organ, "English, Latin, German",
+          "lymph node, lymph nodes, lymphnode*, nodi lymphoidei, nodi lymphatici, nodus lymphoideus, "
+          "nodus lymphaticus, lymphknoten"},
+    Names{NoVessel::organ, "Chinese, Japanese, Korean", "淋巴结, 淋巴結, リンパ節, 림프절"},
     Names{NoVessel::heart, "English", "valve, valves, leaflet, leaflets"},
     Names{NoVessel::heart, "others",
-          "*klappe, *klappen, valvula, valvulae, valvola, valvole, клапан, Клапан, 瓣膜, 動脈弁, 僧帽弁, "
-          "三尖弁, 판막"},
+          "*klappe, *klappen, valvula, valvulae, valvola, valvole, клапан, Клапан, 瓣, 動脈弁, 僧帽弁, "
+          "三尖弁, 판막, 동맥판, 승모판, 삼첨판"},
 };
-// But what follows one of these: "aorta with thrombus", "aorta post stent" are vessels that have one.
+// But what follows one of these: "aorta with thrombus", "aorta post stent", "LAD distal to stent" are vessels
+// that have one.
 constexpr std::string_view kHaving =
-    "with, without, post, pre, after, before, no, mit, ohne, nach, vor, avec, sans, apres, avant, con, sin, "
-    "com, sem, senza";
+    "with, without, after, before, pre, no, in, to, from, of, at, near, above, below, and, incl, including, "
+    "excluding, minus, mit, ohne, nach, vor, inkl, avec, sans, apres, avant, con, sem, senza";
+// Likewise, but where they are abbreviations: "A. coronaria sin. Stent", "A. carotis com. Plaque".
+constexpr std::string_view kHavingOrShort = "post, sin, com";
 
 // What has vessels that are called after it: "liver vessels", "kidney_RA". Whole words where a vessel's
 // adjective begins like it: vertebral, bronchial, ovarian, cystic, inferior thyroid.
@@ -61,7 +70,7 @@ constexpr std::array kInBodies{
     Names{NoVessel::organ, "Italian", "fegato, rene, reni, milza, polmone, polmoni, cervello"},
     Names{NoVessel::organ, "Chinese, Japanese, Korean", "肝, 腎, 肾, 脾, 肺, 신장"},
     Names{NoVessel::organ, "Russian",
-          "печень, почка, Печень, Почка, селезенка, селезёнка, Селезенка, Селезёнка"},
+          "печень, почка, легк, лёгк, Печень, Почка, Легк, Лёгк, селезенка, селезёнка, Селезенка, Селезёнка"},
     Names{NoVessel::heart, "English", "heart, atrium, atrial appendage, ventricle, myocardium"},
     Names{NoVessel::heart, "others",
           "herz, ceur, coeur, corazon, coracao, cuore, 心臓, 心脏, 심장, сердце, Сердце"},
@@ -72,7 +81,7 @@ constexpr std::array kInBodies{
     Names{NoVessel::bone, "Latin", "clavicula, costa, costae, os, ossa, cranium"},
     Names{NoVessel::bone, "German", "knochen, rippe, wirbel, schadel, becken"},
     Names{NoVessel::bone, "Spanish, Portuguese, Italian", "hueso, huesos, osso"},
-    Names{NoVessel::bone, "Chinese, Japanese, Russian", "骨, кость, Кость"},
+    Names{NoVessel::bone, "Chinese, Japanese, Russian", "骨, кост, Кост"},
     Names{NoVessel::tissue, "English", "muscle*, gluteus, iliopsoas, autochthon, skin, fat, nerve*, pleura"},
     Names{NoVessel::tissue, "Latin", "musculus, musculi, nervus, nervi, ligamentum, cutis"},
     Names{NoVessel::tissue, "German, French, Spanish", "muskel, peau, piel"},
@@ -92,12 +101,14 @@ constexpr std::string_view kBesideOrgan =
     "pulmonary, pulmonalis, cerebral, colic, colica, ileocolic, cystic, vesical, phrenic, ra, rv, lra, rra, "
     "lrv, rrv, ha, hv, lhv, mhv, rhv, pa, pv, sa, sv";
 constexpr std::string_view kBesideBone =
-    "ant, post, femoral, femoralis, tibial, tibialis, popliteal, poplitea, peroneal, fibularis, "
+    "tibia ant, tibia post, femoral, femoralis, tibial, tibialis, popliteal, poplitea, peroneal, fibularis, "
     "intercostal, intercostalis, genicular";
 // but of a part: "colon splenic flexure", "renal pelvis of kidney", "femur femoral head".
 constexpr std::string_view kParts =
-    "lobe*, lobus, segment*, flexure, cortex, medulla, pelvis, capsule, parenchyma, surface, gland, head, "
-    "neck, shaft, condyle*, plateau, tuberosity, epiphysis, component, lappen";
+    "lobe*, lobus, segment, segments, segmentum, flexure, cortex, medulla, pelvis, capsule, parenchyma, surface, gland, head, "
+    "neck, shaft, condyle*, plateau, tuberosity, epiphysis, component, lappen, tumor*, "
+    "tumour*, cyst, cysts, lesion*, nodule*, mass, duct*, stone*, fracture*, muscle*, nerve*, cartilage*, "
+    "matter, column*, pyramid*, wall, stem, tray";
 
 template <std::size_t N>
 NoVessel foundIn(const NameText& name, const std::array<Names, N>& table) {
@@ -118,9 +129,13 @@ bool isMuscleOrNerve(const NameText& name) {
 }
 
 NoVessel lyingInVessel(NameText name) {
-  for (const std::string& word : nameWords(kHaving))
-    if (const std::size_t at = name.words.find(' ' + word + ' '); at != name.words.npos)
-      name.words.erase(at + 1);
+  const auto cutBehind = [&](std::string_view list) {
+    for (const std::string& word : nameWords(list))
+      if (const std::size_t at = name.words.find(' ' + word + ' '); at != name.words.npos)
+        name.words.erase(at + 1);
+  };
+  cutBehind(kHaving);
+  if (name.raw.find('.') == name.raw.npos && shortForm(name).empty()) cutBehind(kHavingOrShort);
   return foundIn(name, kInVessels);
 }
 

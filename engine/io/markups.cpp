@@ -55,9 +55,11 @@ const MarkupsJson& listOf(const MarkupsJson& object, const char* key) {
   return value && value->is_array() ? *value : none;
 }
 
-double lengthAt(const MarkupsJson& value, const std::string& place) {
-  if (!value.is_number() || !(std::abs(value.get<double>()) <= kLargestImportedCoordinate))
-    throw BrokenMarkups{place + " must be a finite number"};
+// @param unit  of the file's [m]
+double lengthAt(const MarkupsJson& value, double unit, const std::string& place) {
+  if (!value.is_number()) throw BrokenMarkups{place + " must be a number"};
+  if (!(std::abs(value.get<double>()) * unit <= kLargestImportedCoordinate))
+    throw BrokenMarkups{place + " is too large; is it in its coordinateUnits?"};
   return value.get<double>();
 }
 
@@ -93,8 +95,8 @@ std::vector<double> controlRadii(const MarkupsJson& markup, std::size_t count, d
   const MarkupsJson& chosen = *told[choice->array];
   const double own = choice->unit > 0 ? choice->unit : metresOfUnit(wordAt(chosen, "units"));
   std::vector<double> radii;
-  for (const MarkupsJson& value : chosen["controlPointValues"]) {
-    const double radius = choice->factor * lengthAt(value, place + "/measurements: a radius");
+  for (const MarkupsJson& value : listOf(chosen, "controlPointValues")) {
+    const double radius = choice->factor * lengthAt(value, unit, place + "/measurements: a radius");
     if (const std::string fault = radiusFault(radius, 1, radii.size()); !fault.empty())
       throw BrokenMarkups{place + ": " + fault};
     radii.push_back(radius * (own > 0 ? own : unit));
@@ -105,6 +107,7 @@ std::vector<double> controlRadii(const MarkupsJson& markup, std::size_t count, d
 void addCurve(Centrelines& lines, const MarkupsJson& markup, const std::string& place, VesselKind kind) {
   const double unit = coordinateUnit(markup, place);
   const MarkupsJson& points = listOf(markup, "controlPoints");
+  if (points.size() < 2) return;
   const std::vector<double> radii = controlRadii(markup, points.size(), unit, place);
   std::vector<vec4> samples;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -114,7 +117,7 @@ void addCurve(Centrelines& lines, const MarkupsJson& markup, const std::string& 
     const MarkupsJson& position = listOf(points[i], "position");
     if (position.size() != 3) throw BrokenMarkups{at + "/position must be three numbers"};
     dvec3 p;
-    for (int k = 0; k < 3; ++k) p[k] = lengthAt(position[std::size_t(k)], at + "/position");
+    for (int k = 0; k < 3; ++k) p[k] = lengthAt(position[std::size_t(k)], unit, at + "/position");
     const vec4 sample(ImportFrame{unit, ImportFrame::Up::z}.toHouse(inLps(p, markup, place)),
                       float(radii[i]));
     if (samples.empty() || vec3(samples.back()) != vec3(sample)) samples.push_back(sample);
@@ -164,7 +167,7 @@ Result<Centrelines> parseMarkups(std::string_view text, const std::string& name,
 }
 
 Result<Centrelines> readMarkups(const std::filesystem::path& path, VesselKind kind) {
-  const auto text = readText(path);
+  const auto text = readText(path, kMostMarkupsBytes + 1);
   if (!text) return text.error();
   return parseMarkups(*text, path.string(), kind);
 }

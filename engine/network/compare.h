@@ -14,8 +14,8 @@ struct VesselComparison {
   VesselKind kind = VesselKind::other;
   double length = 0, otherLength = 0;  ///< [m] of the courses
   double whole = 0, otherWhole = 0;    ///< [m] of all pieces
-  /// [m] of the stretch that both courses tell: between the places nearest to the other's ends. Zero where
-  /// they do not run side by side.
+  /// [m] of the stretch that both courses tell: between the places nearest to the other's ends, however far
+  /// off these are. Zero where they run across one another.
   double shared = 0, otherShared = 0;
   /// [m] mean over the first's course to the nearest place of any of the other's pieces
   double distance = 0;

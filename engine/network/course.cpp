@@ -17,32 +17,41 @@ struct Neighbour {
 };
 using Neighbours = std::vector<std::vector<Neighbour>>;
 
-// How every place that one can come to is reached from a place (Dijkstra 1959).
-struct Reach {
-  std::uint32_t farthest;
-  std::vector<double> lengths;
-  std::vector<std::uint32_t> before;
+// How every place that one can come to is reached from a place (Dijkstra 1959). Made once, for many.
+class Reach {
+ public:
+  explicit Reach(const Neighbours& neighbours)
+      : neighbours_(neighbours), lengths_(neighbours.size(), kFar), before_(neighbours.size()) {}
 
-  Reach(const Neighbours& neighbours, std::uint32_t start)
-      : farthest(start),
-        lengths(neighbours.size(), std::numeric_limits<double>::infinity()),
-        before(neighbours.size(), start) {
+  /// O(reached log reached)
+  void from(std::uint32_t start) {
+    for (const std::uint32_t place : reached_) lengths_[place] = kFar;
+    reached_.clear();
     using Entry = std::pair<double, std::uint32_t>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    lengths[start] = 0;
+    lengths_[start] = 0, before_[start] = start;
     queue.push({0, start});
     while (!queue.empty()) {
       const auto [length, at] = queue.top();
       queue.pop();
-      if (length > lengths[at]) continue;
-      farthest = at;  // they come in order
-      for (const Neighbour& next : neighbours[at])
-        if (length + next.length < lengths[next.place]) {
-          lengths[next.place] = length + next.length, before[next.place] = at;
-          queue.push({lengths[next.place], next.place});
+      if (length > lengths_[at]) continue;
+      reached_.push_back(at);
+      for (const Neighbour& next : neighbours_[at])
+        if (length + next.length < lengths_[next.place]) {
+          lengths_[next.place] = length + next.length, before_[next.place] = at;
+          queue.push({lengths_[next.place], next.place});
         }
     }
   }
+  const std::vector<std::uint32_t>& reached() const { return reached_; }  ///< the nearest first
+  double length(std::uint32_t place) const { return lengths_[place]; }
+  std::uint32_t before(std::uint32_t place) const { return before_[place]; }
+
+ private:
+  static constexpr double kFar = std::numeric_limits<double>::infinity();
+  const Neighbours& neighbours_;
+  std::vector<double> lengths_;
+  std::vector<std::uint32_t> before_, reached_;
 };
 
 }  // namespace
@@ -56,6 +65,7 @@ Course::Course(const Network& network, std::span<const VesselId> vessels, double
   };
   std::map<std::uint32_t, std::vector<std::uint32_t>> along;
   struct FreeEnd {
+    VesselId vessel;
     std::uint32_t place;
     float radius;
   };
@@ -70,13 +80,19 @@ Course::Course(const Network& network, std::span<const VesselId> vessels, double
       own.push_back(k == 0 ? placeOf(vessel.start, p) : k == count ? placeOf(vessel.end, p) : add(p));
       if (k > 0) steps_.push_back({own[std::size_t(k) - 1], own.back()});
     }
-    if (!vessel.start.valid()) ends.push_back({own.front(), points.front().w});
-    if (!vessel.end.valid()) ends.push_back({own.back(), points.back().w});
+    if (!vessel.start.valid()) ends.push_back({id, own.front(), points.front().w});
+    if (!vessel.end.valid()) ends.push_back({id, own.back(), points.back().w});
   }
-  for (std::size_t i = 0; i < ends.size(); ++i)  // what was torn there goes on
-    for (std::size_t j = 0; j < i; ++j)
-      if (glm::distance(places_[ends[i].place], places_[ends[j].place]) <
-          std::max(ends[i].radius, ends[j].radius))
+  alongSteps_ = steps_.size();
+  // What was torn goes on. Sorted along x, so that only what is near there is looked at.
+  const auto x = [&](const FreeEnd& end) { return places_[end.place].x; };
+  std::ranges::stable_sort(ends, {}, x);
+  float widest = 0;
+  for (const FreeEnd& end : ends) widest = std::max(widest, end.radius);
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    for (std::size_t j = i; j-- > 0 && x(ends[i]) - x(ends[j]) < widest;)
+      if (ends[i].vessel != ends[j].vessel && glm::distance(places_[ends[i].place], places_[ends[j].place]) <
+                                                  std::max(ends[i].radius, ends[j].radius))
         steps_.push_back({ends[j].place, ends[i].place});
   for (const auto& [node, place] : ofNode) {  // side branches hang on the nearest place of their host
     const auto& host = network.nodes()[node].host;
@@ -95,7 +111,8 @@ std::uint32_t Course::add(vec3 place) {
 
 double Course::length() const {
   double sum = 0;
-  for (const Step& step : steps_) sum += glm::distance(places_[step.from], places_[step.to]);
+  for (const Step& step : std::span(steps_).first(alongSteps_))
+    sum += glm::distance(places_[step.from], places_[step.to]);
   return sum;
 }
 
@@ -108,15 +125,19 @@ std::vector<vec3> Course::longestWay() const {
   std::vector<bool> met(places_.size());
   std::vector<vec3> best;
   double longest = -1;
+  Reach reach(neighbours);
   for (std::uint32_t start = 0; start < places_.size(); ++start) {
     if (met[start]) continue;
-    const Reach first(neighbours, start), second(neighbours, first.farthest);
-    for (std::size_t k = 0; k < met.size(); ++k) met[k] = met[k] || std::isfinite(first.lengths[k]);
-    if (!(second.lengths[second.farthest] > longest)) continue;
-    longest = second.lengths[second.farthest];
-    best.assign(1, places_[second.farthest]);
-    for (std::uint32_t at = second.farthest; at != first.farthest; at = second.before[at])
-      best.push_back(places_[second.before[at]]);
+    reach.from(start);
+    for (const std::uint32_t place : reach.reached()) met[place] = true;
+    const std::uint32_t first = reach.reached().back();
+    reach.from(first);
+    const std::uint32_t last = reach.reached().back();
+    if (!(reach.length(last) > longest)) continue;
+    longest = reach.length(last);
+    best.assign(1, places_[last]);
+    for (std::uint32_t at = last; at != first; at = reach.before(at))
+      best.push_back(places_[reach.before(at)]);
   }
   return best;
 }

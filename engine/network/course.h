@@ -20,7 +20,7 @@ class Course {
 
   std::span<const vec3> places() const { return places_; }
   std::span<const Step> steps() const { return steps_; }
-  double length() const;  ///< [m] of all steps
+  double length() const;  ///< [m] of all pieces
 
   /// The longest of the shortest ways between two places that are joined: of a tree of branches its stem, of
   /// pieces that are not joined the longest one. Method: the farthest place from the farthest place, which is
@@ -30,7 +30,8 @@ class Course {
  private:
   std::uint32_t add(vec3 place);
   std::vector<vec3> places_;
-  std::vector<Step> steps_;
+  std::vector<Step> steps_;  // along vessels, then those that join them
+  std::size_t alongSteps_ = 0;
 };
 
 /// [m] of a polyline.

@@ -73,7 +73,7 @@ void FrameMaker::make(const Clip* clip, float time) {
   const std::uint32_t last = clip->frameCount() - 1;
   const float place =
       std::clamp((time - clip->start) * rate, 0.0f, std::max((clip->end - clip->start) * rate, float(last)));
-  const std::uint32_t frame = std::min(std::uint32_t(place + kOnFrame), last);
+  const auto frame = std::uint32_t(std::min(place + kOnFrame, float(last)));
   const float beyond = place - float(frame);
   const bool isBetween = beyond > kOnFrame && frame < last;
   if (track_->isOf(*clip) && frame < track_->first()) begin(*clip);  // both are needed

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -82,8 +83,8 @@ Result<Network> networkOfSurfaces(const std::filesystem::path& path, float bodyH
                                   const ReadingProgress& told) {
   auto sources = readSurfacesInLikelyUnit(path, ImportFrame::Up::y);
   if (!sources) return sources.error();
-  if (auto near = checkReach(boundsOf(*sources), path.string()); !near) return near.error();
   leaveOutNamedOthers(*sources);
+  if (auto near = checkReach(boundsOf(*sources), path.string()); !near) return near.error();
   ConvertOptions options{.bodyHeight = bodyHeight};
   if (told) {
     told("converting vessels", 0, sources->size());
@@ -125,11 +126,12 @@ std::vector<LeftOut> leaveOutNamedOthers(std::vector<SourceElement>& sources) {
 
 Result<void> checkReach(const Aabb& bounds, const std::string& name) {
   constexpr float kFarthest = 1000;
-  if (farthest(bounds) <= kFarthest) return {};
+  const float far = bounds.empty() ? 0 : glm::length(glm::max(glm::abs(bounds.low), glm::abs(bounds.high)));
+  if (far <= kFarthest) return {};
   return badInput(fmt::format(
-      "{}: the vessels lie {:.0f} m from the origin, where places are rounded to {:.1g} mm; move them to it in "
-      "the program that made the file (Blender: Set Origin, then location 0), or give their unit with --unit",
-      name, farthest(bounds), 1e3 * (std::nextafter(farthest(bounds), 1e9f) - farthest(bounds))));
+      "{}: vessels lie {:.0f} m from the origin, where places are rounded to {:.1g} mm; move them to it in "
+      "the program that made the file (Blender: Set Origin, then location 0), or have its unit told right",
+      name, far, 1e3 * (std::nextafter(far, std::numeric_limits<float>::infinity()) - far)));
 }
 
 Aabb boundsOf(const std::vector<SourceElement>& sources) {

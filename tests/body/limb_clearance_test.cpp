@@ -161,6 +161,12 @@ TEST_CASE("clearance: a leg that swings through the other one goes by beside it,
   CHECK(turnOf("rightUpperLeg") == doctest::Approx(turnOf("leftUpperLeg")).epsilon(0.2));
   const auto arms = std::ranges::count_if(told, [](const ClearedLimb& limb) { return limb.other.empty(); });
   CHECK(arms == 2);
+  // The same the other way round.
+  Clip mirrored = turned(body, "rightUpperLeg", -9);
+  const ClearedLimb other = keepLimbsClear(body, {&mirrored, 1}).front();
+  CHECK(other.left == 0);
+  CHECK(other.before == doctest::Approx(legs.before).epsilon(0.05));
+  CHECK(other.turn == doctest::Approx(legs.turn).epsilon(0.1));
 }
 
 TEST_CASE("clearance: a way that no turn clears is told") {
@@ -188,6 +194,20 @@ TEST_CASE("clearance: a clip that goes round does so still") {
   CHECK(left(keepLimbsClear(body, {&clip, 1})).left == 0);
   CHECK(closes(body.skeleton, clip));
   CHECK(glm::distance(handIn(body, clip, 0), handIn(body, clip, kFrames - 2)) < 0.02f);
+}
+
+TEST_CASE("clearance: a clip that ends between two frames goes round, too") {
+  const Body body = person();
+  Clip clip = lowered(body, kThrough);
+  auto& turns = clip.tracks[0].rotation;
+  turns.values.pop_back(), turns.times.pop_back();
+  std::rotate(turns.values.begin(), turns.values.begin() + kFrames / 2, turns.values.end());
+  clip.end -= 0.4f / clip.framesPerSecond;
+  turns.values.push_back(turns.values.front()), turns.times.push_back(clip.end);
+  REQUIRE(closes(body.skeleton, clip));
+  CHECK(left(keepLimbsClear(body, {&clip, 1})).frames > 0);
+  CHECK(closes(body.skeleton, clip));
+  CHECK(clip.tracks[0].rotation.times.back() == clip.end);
 }
 
 TEST_CASE("clearance: a body without a skin, and one without arms, stay as they are") {

@@ -65,7 +65,13 @@ TEST_CASE("markups that are no vessels are refused with what to do") {
   expectMarkupsFault(R"({"markups": [{"type": "Fiducial"}]})",
                      "markups of type Fiducial; centre lines are those of type Curve");
   expectMarkupsFault(R"({"markups": [{"type": "Curve", "controlPoints": [{"position": [0, 0, 0]}]}]})",
-                     "/markups/0: the curve's control points have no radii");
+                     "holds no curve of two control points");
+  expectMarkupsFault(
+      R"({"markups": [{"type": "Curve", "controlPoints": [], "measurements": [{"name": "Radius"}]}]})",
+      "holds no curve of two control points");
+  expectMarkupsFault(
+      R"({"markups": [{"type": "Curve", "controlPoints": [{"position": [0, 0, 0]}, {"position": [0, 0, 1]}]}]})",
+      "/markups/0: the curve's control points have no radii");
   expectMarkupsFault(curve("", "[4, 3]"), "have no radii");
   expectMarkupsFault(curve("", "[4, -3, 2]"), "radius -3 of point 1 must be positive");
   expectMarkupsFault(curve("", "[0, 0, 0]"), "all radii are zero");
