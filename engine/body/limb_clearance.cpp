@@ -236,7 +236,8 @@ std::vector<ClearedLimb> keepLimbsClear(const Body& body, std::span<Clip> clips)
       both.frames = std::max(both.frames, second.frames);
       both.before = std::max(both.before, second.before);
       if (both.frames == 0) continue;
-      const ClearedLimb third = LimbClearing(body, *skin, right, legs[0], kMostLegTurn).run(*clip, 1);
+      const ClearedLimb third =
+          LimbClearing(body, *skin, right, legs[0], std::max(0.0f, kMostLegTurn - both.turn)).run(*clip, 1);
       both.left = std::max(second.left, third.left);
       both.after = std::max(second.after, third.after);
       both.turn += second.turn + third.turn;
