@@ -96,9 +96,8 @@ TEST_CASE("vessels that lie kilometres away are refused, not rounded") {
   const auto net = files.path("a.vasa");
   const auto metres = runProgram({"convert", far, "--unit", "m", "-o", net});
   CHECK(metres.exit == 3);
-  CHECK_MESSAGE(
-      holds(metres.err, "far.obj: vessels lie 5000 m from the origin, where places are rounded"),
-      metres.err);
+  CHECK_MESSAGE(holds(metres.err, "far.obj: vessels lie 5000 m from the origin, where places are rounded"),
+                metres.err);
   CHECK(!std::filesystem::exists(net));
 }
 
