@@ -5,6 +5,7 @@
 #include "convert/sources.h"
 #include "core/atomic_file.h"
 #include "io/gltf_builder.h"
+#include "io/person_pieces.h"
 #include "support/shared_data.h"
 
 using namespace vasa;
@@ -102,19 +103,6 @@ TEST_CASE("vessels that lie kilometres away are refused, not rounded") {
 }
 
 TEST_CASE("vessels below nodes that are named as limbs are vessels, and a person of pieces is a body") {
-  struct Piece {
-    const char* name;
-    int parent;
-    vec3 place;
-  };
-  const std::vector<Piece> pieces{{"Hips", -1, {0, 1, 0}},           {"Spine", 0, {0, 0.2f, 0}},
-                                  {"Head", 1, {0, 0.4f, 0}},         {"LeftArm", 1, {0.2f, 0.3f, 0}},
-                                  {"LeftForeArm", 3, {0.3f, 0, 0}},  {"LeftHand", 4, {0.25f, 0, 0}},
-                                  {"RightArm", 1, {-0.2f, 0.3f, 0}}, {"RightForeArm", 6, {-0.3f, 0, 0}},
-                                  {"RightHand", 7, {-0.25f, 0, 0}},  {"LeftUpLeg", 0, {0.1f, 0, 0}},
-                                  {"LeftLeg", 9, {0, -0.45f, 0}},    {"LeftFoot", 10, {0, -0.45f, 0}},
-                                  {"RightUpLeg", 0, {-0.1f, 0, 0}},  {"RightLeg", 12, {0, -0.45f, 0}},
-                                  {"RightFoot", 13, {0, -0.45f, 0}}};
   const Files files;
   for (const float radius : {0.004f, 0.08f}) {
     GltfBuilder file;
@@ -129,13 +117,8 @@ TEST_CASE("vessels below nodes that are named as limbs are vessels, and a person
     told["min"] = {box.low.x, box.low.y, box.low.z}, told["max"] = {box.high.x, box.high.y, box.high.z};
     const int indices = file.accessor(corners, "SCALAR", GltfBuilder::kUnsignedInt, corners.size());
     file.add("meshes", {{"primitives", {{{"attributes", {{"POSITION", positions}}}, {"indices", indices}}}}});
-    for (const Piece& piece : pieces) {
-      const auto node = file.document["nodes"].size();
-      file.add("nodes", {{"name", piece.name},
-                         {"mesh", 0},
-                         {"translation", {piece.place.x, piece.place.y, piece.place.z}}});
-      if (piece.parent >= 0) file.document["nodes"][std::size_t(piece.parent)]["children"].push_back(node);
-    }
+    addPersonPieces(file);
+    for (auto& node : file.document["nodes"]) node["mesh"] = 0;
     file.add("scenes", {{"nodes", {0}}});
     const auto outcome = runProgram({"info", files.write("limbs.glb", file.glb()), "--json"});
     REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);

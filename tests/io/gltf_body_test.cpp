@@ -5,6 +5,7 @@
 #include "io/gltf.h"
 #include "io/gltf_builder.h"
 #include "io/gltf_clips.h"
+#include "io/person_pieces.h"
 #include "io/reading.h"
 #include "support/shared_data.h"
 
@@ -370,31 +371,13 @@ TEST_CASE("what is no body is refused") {
 }
 
 TEST_CASE("rigid pieces that hang on one another as a person's limbs are a body; others are not") {
-  struct Piece {
-    const char* name;
-    int parent;
-    vec3 place;
-  };
-  const std::vector<Piece> pieces{{"Hips", -1, {0, 1, 0}},           {"Spine", 0, {0, 0.2f, 0}},
-                                  {"Head", 1, {0, 0.4f, 0}},         {"LeftArm", 1, {0.2f, 0.3f, 0}},
-                                  {"LeftForeArm", 3, {0.3f, 0, 0}},  {"LeftHand", 4, {0.25f, 0, 0}},
-                                  {"RightArm", 1, {-0.2f, 0.3f, 0}}, {"RightForeArm", 6, {-0.3f, 0, 0}},
-                                  {"RightHand", 7, {-0.25f, 0, 0}},  {"LeftUpLeg", 0, {0.1f, 0, 0}},
-                                  {"LeftLeg", 9, {0, -0.45f, 0}},    {"LeftFoot", 10, {0, -0.45f, 0}},
-                                  {"RightUpLeg", 0, {-0.1f, 0, 0}},  {"RightLeg", 12, {0, -0.45f, 0}},
-                                  {"RightFoot", 13, {0, -0.45f, 0}}};
   const TemporaryFolder folder;
   for (const bool apart : {true, false}) {  // false: the groups of an atlas
     GltfBuilder file = triangleFile();
     file.document["nodes"] = json::array();
-    for (const Piece& piece : pieces) {
-      const auto node = file.document["nodes"].size();
-      const vec3 place = apart ? piece.place : vec3(0);
-      file.add("nodes", {{"name", piece.name}, {"translation", {place.x, place.y, place.z}}});
-      if (piece.parent >= 0) file.document["nodes"][std::size_t(piece.parent)]["children"].push_back(node);
-    }
+    const std::size_t pieces = addPersonPieces(file, apart);
     // Each holds a mesh at its own place.
-    for (std::size_t node = 0; node < pieces.size(); ++node) {
+    for (std::size_t node = 0; node < pieces; ++node) {
       file.document["nodes"][node]["children"].push_back(file.document["nodes"].size());
       file.add("nodes", {{"mesh", 0}});
     }
@@ -406,10 +389,10 @@ TEST_CASE("rigid pieces that hang on one another as a person's limbs are a body;
     const auto body = readBody(path);
     CHECK(body.ok() == apart);
     if (!apart || !body.ok()) continue;
-    CHECK(body->skeleton.joints.size() == pieces.size());
+    CHECK(body->skeleton.joints.size() == pieces);
     std::size_t vertices = 0;
     for (const SkinnedMesh& mesh : body->meshes) vertices += mesh.mesh.positions.size();
-    CHECK(vertices == 3 * pieces.size());
+    CHECK(vertices == 3 * pieces);
     file.document["nodes"][4].erase("translation");
     file.document["nodes"][4]["matrix"] = {1, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0.3, 0, 0, 1};
     const auto sheared = readBody(writeBytes(folder.path() / "sheared.glb", file.glb()));
