@@ -5,6 +5,7 @@
 
 #include "avoid/sides.h"
 #include "check_text.h"
+#include "collide/passages.h"
 #include "commands.h"
 #include "core/cancellation.h"
 #include "core/log.h"
@@ -120,23 +121,34 @@ class CorrectionChange {
   std::vector<vec3> last_;
 };
 
-// Vessels that have changed sides since rest, by a look of its own.
+// Vessels that have changed sides since rest, and those that passed through one another since the last
+// frame, by looks of their own.
 class SideCheck {
  public:
   explicit SideCheck(const Network& network)
-      : interference_(network), sides_(network, interference_), tubes_(interference_.layout().count()) {}
-  std::span<const RestSides::Turned> find(const FrameMaker& maker) {
+      : interference_(network),
+        sides_(network, interference_),
+        search_(interference_.restTubes(), interference_.layout().neighbours().exclusions()),
+        tubes_(interference_.layout().count()) {}
+  void next(const FrameMaker& maker) {
+    last_.swap(tubes_);
+    tubes_.resize(last_.size());
     interference_.layout().shape(maker.points(), tubes_);
     sides_.findChanged(tubes_, maker.rotations(), changed_);
-    return changed_;
+    if (!isFirst_) passed_ = search_.find(last_, tubes_);
+    isFirst_ = false;
   }
   std::span<const RestSides::Turned> changed() const { return changed_; }
+  std::span<const Passage> passed() const { return passed_; }  // none for the first
 
  private:
   Interference interference_;
   RestSides sides_;
-  std::vector<Bezier> tubes_;
+  PassageSearch search_;
+  std::vector<Bezier> tubes_, last_;
+  bool isFirst_ = true;
   std::vector<RestSides::Turned> changed_;
+  std::span<const Passage> passed_;
 };
 
 // What is looked at beside the maker's own report; some of it remembers the frame before.
@@ -170,8 +182,7 @@ void addSteps(const Network& network, const std::optional<CorrectionSteps::Steps
 
 // The places that are left: overlaps, changed sides with how far beyond one another's centre lines the two
 // are, tubes in bones by the joint that carries the bone, and spans whose lumen gave way.
-void addPlaces(const Scene& scene, const Avoider& avoider, std::span<const RestSides::Turned> changedSides,
-               Report& row) {
+void addPlaces(const Scene& scene, const Avoider& avoider, const SideCheck& sides, Report& row) {
   const Network& network = scene.network;
   const auto describe = [&](const Contact& contact, float depth) {
     const auto nameOf = [&](std::uint32_t tube) {
@@ -182,11 +193,18 @@ void addPlaces(const Scene& scene, const Avoider& avoider, std::span<const RestS
                   {"spans", {spanOf(contact.i), spanOf(contact.j)}},
                   {"depth_m", depth}};
   };
-  row["remaining"] = row["changed_sides"] = Report::array();
+  row["remaining"] = row["changed_sides"] = row["passed"] = Report::array();
   for (const Interference::Place& place : avoider.remaining())
     row["remaining"].push_back(describe(place.contact, place.excess()));
-  for (const RestSides::Turned& turned : changedSides)
+  for (const RestSides::Turned& turned : sides.changed())
     row["changed_sides"].push_back(describe(turned.at, -turned.at.f));
+  for (const Passage& passage : sides.passed()) {
+    const auto placeOf = [&](std::uint32_t tube, float parameter) {
+      const auto [vessel, span] = avoider.layout().address(tube);
+      return Report{{"vessel", network.vessel(vessel).name}, {"span", float(span) + parameter}};
+    };
+    row["passed"].push_back({placeOf(passage.i, passage.s), placeOf(passage.j, passage.t)});
+  }
   row["in_bones"] = Report::array();
   for (const BoneContact& contact : avoider.inBones()) {
     const auto [vessel, span] = avoider.layout().address(contact.tube);
@@ -211,6 +229,7 @@ Report frameReport(const Scene& scene, FrameMaker& maker, Looks& looks, std::uin
   const VolumeErrors volume =
       volumeErrors(scene.network, maker.points(), *maker.avoider(), options.tissue.kept());
   const CorrectionChange::Change change = looks.change.next(scene.network, maker);
+  looks.sides.next(maker);
   Report row{{"frame", frame},
              {"contacts_before", before.vessels.contacts},
              {"contacts_after", avoid.after.contacts},
@@ -226,7 +245,8 @@ Report frameReport(const Scene& scene, FrameMaker& maker, Looks& looks, std::uin
              {"moved_rms_m", avoid.movedRms},
              {"kinks_before", maker.report().kinks},
              {"kinks", kinkCount(scene.network, maker.points())},
-             {"sides_changed", looks.sides.find(maker).size()},
+             {"sides_changed", looks.sides.changed().size()},
+             {"passages", looks.sides.passed().size()},
              {"steps", maker.report().steps},
              {"obstacle_contacts_before", before.bones.contacts},
              {"obstacle_contacts_after", avoid.bonesAfter.contacts},
@@ -250,7 +270,7 @@ Report frameReport(const Scene& scene, FrameMaker& maker, Looks& looks, std::uin
     const PaperLook::Pairs posed = looks.paper->at(unmoved(scene.network, maker, options.tissue.kept()));
     addPaperLook(posed, looks.paper->at(maker.points()), row);
   }
-  if (options.places) addPlaces(scene, *maker.avoider(), looks.sides.changed(), row);
+  if (options.places) addPlaces(scene, *maker.avoider(), looks.sides, row);
   return row;
 }
 
