@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "avoid/sides.h"
 #include "check_text.h"
-#include "collide/passages.h"
 #include "commands.h"
 #include "core/cancellation.h"
 #include "core/log.h"
@@ -18,6 +16,7 @@
 #include "scene/correction_step.h"
 #include "scene/frame.h"
 #include "scene_options.h"
+#include "side_look.h"
 #include "tissue_options.h"
 #include "track_option.h"
 
@@ -121,42 +120,12 @@ class CorrectionChange {
   std::vector<vec3> last_;
 };
 
-// Vessels that have changed sides since rest, and those that passed through one another since the last
-// frame, by looks of their own.
-class SideCheck {
- public:
-  explicit SideCheck(const Network& network)
-      : interference_(network),
-        sides_(network, interference_),
-        search_(interference_.restTubes(), interference_.layout().neighbours().exclusions()),
-        tubes_(interference_.layout().count()) {}
-  void next(const FrameMaker& maker) {
-    last_.swap(tubes_);
-    tubes_.resize(last_.size());
-    interference_.layout().shape(maker.points(), tubes_);
-    sides_.findChanged(tubes_, maker.rotations(), changed_);
-    if (!isFirst_) passed_ = search_.find(last_, tubes_);
-    isFirst_ = false;
-  }
-  std::span<const RestSides::Turned> changed() const { return changed_; }
-  std::span<const Passage> passed() const { return passed_; }  // none for the first
-
- private:
-  Interference interference_;
-  RestSides sides_;
-  PassageSearch search_;
-  std::vector<Bezier> tubes_, last_;
-  bool isFirst_ = true;
-  std::vector<RestSides::Turned> changed_;
-  std::span<const Passage> passed_;
-};
-
 // What is looked at beside the maker's own report; some of it remembers the frame before.
 struct Looks {
   explicit Looks(const Network& network) : steps(network), sides(network), loads(network) {}
   CorrectionChange change;
   CorrectionSteps steps;
-  SideCheck sides;
+  SideLook sides;
   ClipLoads loads;
   std::optional<PaperLook> paper;  // with --method paper
 };
@@ -182,7 +151,7 @@ void addSteps(const Network& network, const std::optional<CorrectionSteps::Steps
 
 // The places that are left: overlaps, changed sides with how far beyond one another's centre lines the two
 // are, tubes in bones by the joint that carries the bone, and spans whose lumen gave way.
-void addPlaces(const Scene& scene, const Avoider& avoider, const SideCheck& sides, Report& row) {
+void addPlaces(const Scene& scene, const Avoider& avoider, const SideLook& sides, Report& row) {
   const Network& network = scene.network;
   const auto describe = [&](const Contact& contact, float depth) {
     const auto nameOf = [&](std::uint32_t tube) {
@@ -246,6 +215,7 @@ Report frameReport(const Scene& scene, FrameMaker& maker, Looks& looks, std::uin
              {"kinks_before", maker.report().kinks},
              {"kinks", kinkCount(scene.network, maker.points())},
              {"sides_changed", looks.sides.changed().size()},
+             {"passages_before", looks.sides.passedBefore()},
              {"passages", looks.sides.passed().size()},
              {"steps", maker.report().steps},
              {"obstacle_contacts_before", before.bones.contacts},
@@ -310,6 +280,11 @@ Report summaryOf(const Report& frames) {
     }
   }
   addStepsOfAll(frames, summary);
+  for (const char* key : {"passages_before", "passages"}) {
+    std::size_t sum = 0;
+    for (const Report& frame : frames) sum += frame[key].get<std::size_t>();
+    summary[key] = sum;
+  }
   summary["certified"] = bad == 0;
   summary["frames"] = frames.size();
   summary["frames_certified"] = certified;
@@ -356,9 +331,11 @@ Result<void> run(const Globals& globals, const Options& options) {
   const auto [first, last] = setting->range;
   Looks looks(setting->scene.network);
   if (options.method == "paper") looks.paper.emplace(setting->scene.network);
+  maker.onStep([&] { looks.sides.step(maker); });
   for (std::uint32_t frame = first; frame <= last; ++frame) {
     checkpoint();
     maker.make(setting->clip, setting->timing.timeOfFrame(frame));
+    maker.onStep({});
     report["frames"].push_back(frameReport(setting->scene, maker, looks, frame, options));
     looks.loads.look(frame, maker.points(), *maker.avoider());
     progress.update(frame - first + 1, last - first + 1);
@@ -369,6 +346,7 @@ Result<void> run(const Globals& globals, const Options& options) {
   report["summary"]["excluded_pairs"] = maker.avoider()->neighbourCount();
   report["summary"]["obstacle_rest_contacts"] = maker.avoider()->restBoneContactCount();
   report["summary"]["rest_pairs"] = maker.avoider()->restPairCount();
+  report["summary"]["passages_from_rest"] = looks.sides.isFromRest();
   addLoads(setting->scene.network, looks.loads, report["summary"]);
   report["summary"]["certificate"] = certificateReport(*maker.avoider());
   return globals.json ? printJson(report) : printText(checkText(report));
@@ -394,6 +372,10 @@ void addCheck(CLI::App& app, Command& command) {
       "lists what the word covers. It says nothing of tubes that are near one another along a vessel or across a\n"
       "fork (excluded_pairs), of the walls drawn around forks, of bones (obstacle_contacts), of capillaries, nor of\n"
       "the skin (skin_contacts).\n"
+      "passages: how often a vessel passes through another on the way to a frame from the one before, exactly,\n"
+      "whatever overlaps in either; for the first, on all its way from rest (passages_from_rest; not with a --track that holds\n"
+      "it); passages_before: if the body alone moved them.\n"
+      "sides_changed: pairs that lie on another side of one another than at rest, by the angle, if only as they rolled.\n"
       "correction_step: how far the correction of a place of a vessel (two a span) is from what it was in the frame\n"
       "before. More than 1.5 mm, and more than the body alone moves any vessel near by (50 mm along each axis), looks\n"
       "like a jump: correction_step_excess counts such places, in the summary over all frames, and\n"
@@ -417,7 +399,8 @@ void addCheck(CLI::App& app, Command& command) {
                 "Hold vessels below the skin, too; without it skin_contacts are 0");
   sub->add_flag(
       "--places", options->places,
-      "Name the vessels that still interfere, have changed sides, are in bones or gave way in each frame");
+      "Name the vessels that still interfere, passed through one another, have changed sides, are in bones or gave "
+      "way in each frame");
   sub->callback(
       [options, &command] { command.run = [options, &command] { return run(command.globals, *options); }; });
 }

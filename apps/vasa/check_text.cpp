@@ -85,6 +85,14 @@ std::string verdict(const Report& report) {
                        bad, counted(frames.size(), "frame", "frames"),
                        1e3 * (*worst)["depth_after_m"].get<double>(), (*worst)["frame"].get<std::uint32_t>());
   }
+  if (const auto passages = std::size_t(number("passages")); passages > 0)
+    text += fmt::format(" {} another on the way from frame to frame.",
+                        counted(passages, "time a vessel passes through", "times vessels pass through"));
+  else if (summary["passages_from_rest"] == true)
+    text += fmt::format(" None passes through another on the way from rest{}.",
+                        frames.size() > 1 ? " or from frame to frame" : "");
+  else if (frames.size() > 1)
+    text += " None passes through another from frame to frame.";
   if (const auto tubes = std::size_t(number("obstacle_deeper_after")); tubes > 0)
     text += fmt::format(" Up to {} deeper in bone or heart than at rest.",
                         counted(tubes, "tube lies", "tubes lie"));

@@ -10,11 +10,10 @@
 namespace vasa {
 namespace {
 
-constexpr float kSmallestWeight = 1e-3f;  // what a place owes to hosts of hosts is followed down to this
-constexpr float kSmallestResponse = 1e-3f;
-constexpr float kSamePace = 1.0001f;                 // below what is allowed by that much: above rounding
-constexpr std::size_t kVesselGrain = 64;             // as many as are worth another thread
-constexpr float kLightest = 0.03f, kHeaviest = 100;  // by the median: what is lighter or heavier moves alike
+// What a place owes to hosts of hosts is followed down to this, and responses to this of the largest.
+constexpr float kSmallest = 1e-3f;
+constexpr float kSamePace = 1.0001f;      // below what is allowed by that much: above rounding
+constexpr std::size_t kVesselGrain = 64;  // as many as are worth another thread
 
 float carriedShare(std::uint32_t steps, std::uint32_t points, std::uint32_t carried) {
   const float reach = float(std::min(carried, points - 1));
@@ -22,28 +21,10 @@ float carriedShare(std::uint32_t steps, std::uint32_t points, std::uint32_t carr
   return 1 - x * x * (3 - 2 * x);
 }
 
-// Volume by point of each vessel, by the median vessel's.
-std::vector<float> relativeMasses(const Network& network) {
-  std::vector<float> masses;
-  for (const Vessel& vessel : network.vessels()) {
-    const std::span<const vec4> points = network.pointsOf(vessel);
-    float mass = 0;
-    for (std::size_t l = 1; l < points.size(); ++l) {
-      const float radius = 0.5f * (points[l - 1].w + points[l].w);
-      mass += radius * radius * glm::distance(vec3(points[l - 1]), vec3(points[l]));
-    }
-    masses.push_back(mass / float(points.size()));
-  }
-  std::vector<float> sorted = masses;
-  std::ranges::nth_element(sorted, sorted.begin() + std::ptrdiff_t(sorted.size() / 2));
-  const float median = sorted[sorted.size() / 2];
-  for (float& mass : masses) mass = median > 0 ? std::clamp(mass / median, kLightest, kHeaviest) : 1;
-  return masses;
-}
-
 }  // namespace
 
-MotionSpace::MotionSpace(const Network& network, float beta, bool byMass, std::uint32_t carried)
+MotionSpace::MotionSpace(const Network& network, float beta, std::span<const float> masses,
+                         std::uint32_t carried)
     : network_(&network),
       pointCount_(network.points().size()),
       vesselOf_(pointCount_),
@@ -61,15 +42,13 @@ MotionSpace::MotionSpace(const Network& network, float beta, bool byMass, std::u
     hosting.span = at.span;
     hosting.weights = deBoorWeights(at.span, hosting.host->spanCount(), at.t);
   }
-  const std::vector<float> masses =
-      byMass ? relativeMasses(network) : std::vector<float>(network.vessels().size(), 1.0f);
   for (std::uint32_t v = 0; v < network.vessels().size(); ++v) {
     const Vessel& vessel = network.vessels()[v];
     const bool start = vessel.start.valid(), end = vessel.end.valid();
+    const float mass = masses.empty() ? 1 : masses[v];
     blocks_.push_back(
         {vessel.firstPoint + (start ? 1u : 0u),
-         BendingMetric(vessel.pointCount - (start ? 1u : 0u) - (end ? 1u : 0u), start, end, beta),
-         1 / masses[v]});
+         BendingMetric(vessel.pointCount - (start ? 1u : 0u) - (end ? 1u : 0u), start, end, beta), 1 / mass});
     const auto startShare = std::span(startShare_).subspan(vessel.firstPoint, vessel.pointCount);
     const auto endShare = std::span(endShare_).subspan(vessel.firstPoint, vessel.pointCount);
     for (std::uint32_t l = 0; l < vessel.pointCount; ++l) {
@@ -77,8 +56,8 @@ MotionSpace::MotionSpace(const Network& network, float beta, bool byMass, std::u
       if (start) startShare[l] = carriedShare(l, vessel.pointCount, carried);
       if (end) endShare[l] = carriedShare(vessel.pointCount - 1 - l, vessel.pointCount, carried);
     }
-    if (start) nodeWeight_[vessel.start.value] += masses[v] * BendingMetric::energy(startShare, beta);
-    if (end) nodeWeight_[vessel.end.value] += masses[v] * BendingMetric::energy(endShare, beta);
+    if (start) nodeWeight_[vessel.start.value] += mass * BendingMetric::energy(startShare, beta);
+    if (end) nodeWeight_[vessel.end.value] += mass * BendingMetric::energy(endShare, beta);
   }
 }
 
@@ -106,7 +85,7 @@ void MotionSpace::addPlace(VesselId vessel, std::uint32_t span, float t, float w
 
 void MotionSpace::addPoint(const Vessel& vessel, std::uint32_t local, float weight,
                            std::vector<Term>& terms) const {
-  if (std::abs(weight) < kSmallestWeight) return;
+  if (std::abs(weight) < kSmallest) return;
   const std::uint32_t point = vessel.firstPoint + local;
   const bool fixed =
       (local == 0 && vessel.start.valid()) || (local + 1 == vessel.pointCount && vessel.end.valid());
@@ -119,7 +98,7 @@ void MotionSpace::addNode(NodeId node, float weight, std::vector<Term>& terms) c
   if (const auto& host = network_->node(node).host) {
     const SpanParameter at = locate(host->parameter, network_->vessel(host->vessel).spanCount());
     addPlace(host->vessel, at.span, at.t, weight, terms);
-  } else if (std::abs(weight) >= kSmallestWeight) {
+  } else if (std::abs(weight) >= kSmallest) {
     terms.push_back({std::uint32_t(pointCount_) + node.value, weight});
   }
 }
@@ -154,7 +133,7 @@ MotionSpace::Row MotionSpace::finish(std::vector<Term>& terms, Rows& rows) const
     for (; k < own.size() && own[k].variable < pointCount_ && vesselOf_[own[k].variable] == vessel; ++k)
       x[own[k].variable - block.first] = own[k].weight;
     const auto [first, last] = block.metric.solveNear(
-        x, {own[begin].variable - block.first, own[k - 1].variable - block.first + 1}, kSmallestResponse);
+        x, {own[begin].variable - block.first, own[k - 1].variable - block.first + 1}, kSmallest);
     for (std::uint32_t l = first; l < last; ++l) x[l] *= block.lightness;
     for (std::size_t l = begin; l < k; ++l) row.diagonal += own[l].weight * x[own[l].variable - block.first];
     rows.runs.push_back({block.first + first, last - first});

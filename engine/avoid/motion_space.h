@@ -17,10 +17,10 @@ namespace vasa {
 /// outlive it; one object serves one caller.
 class MotionSpace {
  public:
-  /// @param byMass  what a motion costs grows with what it moves: the volume that belongs to a point, by the
-  /// median
+  /// @param masses   one a vessel: what moving its points costs, times; or none: 1 for all
   /// @param carried  >= 1: over so many points φ falls to 0
-  explicit MotionSpace(const Network& network, float beta, bool byMass = false, std::uint32_t carried = 8);
+  explicit MotionSpace(const Network& network, float beta, std::span<const float> masses = {},
+                       std::uint32_t carried = 8);
 
   /// One number a point, then one a node; those of fixed ends and hosted nodes stay 0.
   std::uint32_t variableCount() const { return std::uint32_t(pointCount_ + nodeWeight_.size()); }

@@ -9,8 +9,9 @@ namespace {
 constexpr float kSlow = 0.04f;
 // ... and of what moves near by: it is looked at point by point, and may be as much slower between them
 constexpr float kPaceShare = 0.98f;
-// [m] that anything is held aside: what is caught on another limb is let go there
-constexpr float kFarthestAside = 0.04f;
+// [m] that anything is held aside, what a second at the slow pace comes to: what is caught on another limb is
+// let go there
+constexpr float kFarthestAside = kSlow;
 
 }  // namespace
 

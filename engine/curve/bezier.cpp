@@ -1,5 +1,8 @@
 #include "curve/bezier.h"
 
+#include <algorithm>
+#include <limits>
+
 namespace vasa {
 
 vec4 Bezier::at(float t) const {
@@ -21,6 +24,25 @@ std::pair<Bezier, Bezier> Bezier::split(float t) const {
   const vec4 p012 = glm::mix(p01, p12, t), p123 = glm::mix(p12, p23, t);
   const vec4 middle = glm::mix(p012, p123, t);
   return {Bezier{{b[0], p01, p012, middle}}, Bezier{{middle, p123, p23, b[3]}}};
+}
+
+float Bezier::nearest(vec3 p) const {
+  constexpr int kSamples = 8, kSteps = 3;
+  constexpr float kLeastCurvature = 0.2f;  // of the squared speed: beyond a bend's centre there is no minimum
+  float best = 0, least = std::numeric_limits<float>::infinity();
+  for (int k = 0; k <= kSamples; ++k) {
+    const float t = float(k) / kSamples;
+    const vec3 gap = vec3(at(t)) - p;
+    if (glm::dot(gap, gap) < least) least = glm::dot(gap, gap), best = t;
+  }
+  for (int step = 0; step < kSteps; ++step) {
+    const vec3 gap = vec3(at(best)) - p, first(derivative(best)), second(secondDerivative(best));
+    const float speed = glm::dot(first, first),
+                curvature = std::max(speed + glm::dot(gap, second), kLeastCurvature * speed);
+    if (!(curvature > 0)) break;
+    best = std::clamp(best - glm::dot(gap, first) / curvature, 0.0f, 1.0f);
+  }
+  return best;
 }
 
 Aabb Bezier::bounds() const {

@@ -15,6 +15,9 @@ struct Bezier {
   vec4 secondDerivative(float t) const;  ///< d²/dt²
   /// The parts before and after t (de Casteljau).
   std::pair<Bezier, Bezier> split(float t) const;
+  /// The parameter of the point on the centre line nearest to p: the best of nine samples, then three Newton
+  /// steps on the squared distance. Right unless the line comes about as near twice.
+  float nearest(vec3 p) const;
   /// Box that holds the whole tube: hull of the control points grown by their radii.
   Aabb bounds() const;
 };

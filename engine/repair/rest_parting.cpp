@@ -31,13 +31,33 @@ constexpr float kLeastLeverage = 1e-4f;
 constexpr float kThinningStep = 0.2f;  // of what is lacking, so that motion can do the rest
 // Most that the share of a radius changes from one point to the next.
 constexpr float kPartTaper = 0.3f;
+constexpr float kLightest = 0.03f, kHeaviest = 100;  // by the median: what is lighter or heavier moves alike
+
+// Volume by point of each vessel, by the median vessel's.
+std::vector<float> relativeMasses(const Network& network) {
+  std::vector<float> masses;
+  for (const Vessel& vessel : network.vessels()) {
+    const std::span<const vec4> points = network.pointsOf(vessel);
+    float mass = 0;
+    for (std::size_t l = 1; l < points.size(); ++l) {
+      const float radius = 0.5f * (points[l - 1].w + points[l].w);
+      mass += radius * radius * glm::distance(vec3(points[l - 1]), vec3(points[l]));
+    }
+    masses.push_back(mass / float(points.size()));
+  }
+  std::vector<float> sorted = masses;
+  std::ranges::nth_element(sorted, sorted.begin() + std::ptrdiff_t(sorted.size() / 2));
+  const float median = sorted[sorted.size() / 2];
+  for (float& mass : masses) mass = median > 0 ? std::clamp(mass / median, kLightest, kHeaviest) : 1;
+  return masses;
+}
 
 }  // namespace
 
 RestParting::RestParting(const Network& network, float clearance)
     : network_(&network),
       clearance_(clearance),
-      space_(network, kBending, true, kCarried),
+      space_(network, kBending, relativeMasses(network), kCarried),
       z_(space_.variableCount(), vec3(0)),
       shares_(network.points().size(), 1),
       points_(network.points().begin(), network.points().end()) {}

@@ -166,6 +166,7 @@ void FrameMaker::walk(const Pose& target, float fromTime, float time, float seco
       const float next = done + length > 1 - 0.5f * kShortestStep * longest ? 1 : done + length;
       deform(path_.at(next), glm::mix(fromTime, time, next));
       if (!step({(next - done) * seconds, atOnce || length <= kShortestStep * longest, next == 1})) continue;
+      if (watch_) watch_();
       caught = report_.avoid.after.holds() ? 0 : caught + 1;
       done = next;
       break;
@@ -177,6 +178,7 @@ void FrameMaker::startAtRest() {
   at_.reset();
   deform(restPose_, 0);
   start({});
+  if (watch_) watch_();
 }
 
 // Where the body stands now, with a correction that was found before.

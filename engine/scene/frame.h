@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -58,6 +59,10 @@ class FrameMaker {
   void make(const Pose& pose, float time = 0);
   /// On to a pose from where the body is now, whatever led there: for live posing. @param seconds  since then
   void moveTo(const Pose& pose, float time, float seconds);
+
+  /// From now on calls watch() after every step of the way to a pose, and at rest, where ways begin: for
+  /// whoever looks between frames. @param watch  or nothing
+  void onStep(std::function<void()> watch) { watch_ = std::move(watch); }
 
   /// Another shape in the same pose, as one that was found for the network before it was edited.
   void put(std::span<const vec4> points);
@@ -120,6 +125,7 @@ class FrameMaker {
   std::vector<quat> knotFrames_;
   std::vector<mat4> jointMatrices_;
   FrameReport report_;
+  std::function<void()> watch_;
 };
 
 }  // namespace vasa

@@ -25,6 +25,21 @@ TEST_CASE("check has a row a frame and the worst of each in its summary") {
     CHECK_MESSAGE(report["summary"][list].empty(), list);
 }
 
+TEST_CASE("check tells what passes through what from rest to its first frame and from frame to frame") {
+  const auto report =
+      runProgram({"check", "--clip", "squat", "--frames", "44:46", "--places", "--json"}).json();
+  std::size_t before = 0;
+  for (const auto& frame : report["frames"]) {
+    before += frame["passages_before"].get<std::size_t>();
+    CHECK(frame["passages"] == frame["passed"].size());
+  }
+  CHECK(report["frames"][0]["passages_before"] > 0);  // the body bends its knees without looking
+  CHECK(report["summary"]["passages_before"] == before);
+  CHECK(report["summary"]["passages"] == 0);
+  const auto still = runProgram({"check", "--clip", "squat", "--frames", "44"});
+  CHECK(still.out.find("None passes through another on the way from rest.") != std::string::npos);
+}
+
 TEST_CASE("check tells how far corrections step from frame to frame, at the rate that is asked for") {
   const auto outcome = runProgram({"check", "--clip", "elbow", "--fps", "15", "--frames", "20:22", "--json"});
   REQUIRE(outcome.exit == 0);
@@ -95,6 +110,8 @@ TEST_CASE("check ends with a verdict in a sentence, lengths for people in millim
   const auto outcome = runProgram({"check", "--clip", "fist", "--frames", "0:2"});
   CHECK(outcome.exit == 0);
   CHECK(outcome.out.find("No vessel runs through another in any of 3 frames: certified.") !=
+        std::string::npos);
+  CHECK(outcome.out.find("None passes through another on the way from rest or from frame to frame.") !=
         std::string::npos);
   CHECK(outcome.out.find("depth_after_mm") != std::string::npos);
   CHECK(outcome.out.find("depth_after_m ") == std::string::npos);

@@ -34,8 +34,9 @@ Bezier between(const Bezier& before, const Bezier& after, float share) {
   return tube;
 }
 
-// The Gauss integral of two curves, by 16 chords each: the solid angles of all pairs (Klenin, Langowski 2000).
-// It goes over into another steadily while curves move, and jumps by one where they pass through one another.
+// The Gauss integral of two curves, by 16 chords each: the solid angles of all pairs (Klenin, Langowski
+// 2000). It goes over into another steadily while curves move, and jumps by one where they pass through one
+// another.
 double linking(const Bezier& a, const Bezier& b) {
   constexpr int kChords = 16;
   const auto asine = [](double x) { return std::asin(std::clamp(x, -1.0, 1.0)); };
@@ -120,7 +121,8 @@ TEST_CASE("passages are where the Gauss integral of two moving curves jumps") {
     double last = linking(before[k], before[k + 1]);
     for (int time = 1; time <= kTimes; ++time) {
       const float share = float(time) / kTimes;
-      const double now = linking(between(before[k], after[k], share), between(before[k + 1], after[k + 1], share));
+      const double now =
+          linking(between(before[k], after[k], share), between(before[k + 1], after[k + 1], share));
       if (std::abs(now - last) > 0.5) jumps.push_back(share);
       last = now;
     }
@@ -137,7 +139,8 @@ TEST_CASE("passages are where the Gauss integral of two moving curves jumps") {
 TEST_CASE("the tree leaves out nothing, on any number of threads") {
   const std::vector<Bezier> before = test::randomTubes(300, 5, 0.1f, 0.03f, 0.001f);
   std::vector<Bezier> after = test::randomTubes(300, 6, 0.1f, 0.03f, 0.001f);
-  for (std::size_t tube = 0; tube < after.size(); ++tube) after[tube] = between(before[tube], after[tube], 0.3f);
+  for (std::size_t tube = 0; tube < after.size(); ++tube)
+    after[tube] = between(before[tube], after[tube], 0.3f);
   std::size_t onePairAtATime = 0;
   for (std::size_t i = 0; i < before.size(); ++i)
     for (std::size_t j = i + 1; j < before.size(); ++j)

@@ -52,3 +52,18 @@ TEST_CASE("the shared table holds Bernstein values") {
   CHECK(table[512] == vec4(0.125f, 0.375f, 0.375f, 0.125f));
   for (const vec4& w : table) CHECK(w.x + w.y + w.z + w.w == doctest::Approx(1));
 }
+
+TEST_CASE(
+    "the nearest point of a segment is as near as any of many samples, and its ends where it lies beyond") {
+  const Bezier segment{{vec4(0, 0, 0, 1), vec4(1, 2, 0, 1), vec4(2, -1, 1, 1), vec4(3, 0, 0, 1)}};
+  for (int k = 0; k < 40; ++k) {
+    CAPTURE(k);
+    const vec3 p(0.1f * float(k) - 0.5f, 0.4f * std::sin(float(k)), 0.3f * std::cos(2 * float(k)));
+    float least = 1e30f;
+    for (int j = 0; j <= 1000; ++j)
+      least = std::min(least, glm::distance(p, vec3(segment.at(float(j) / 1000))));
+    CHECK(glm::distance(p, vec3(segment.at(segment.nearest(p)))) < least + 1e-3f);
+  }
+  CHECK(segment.nearest({-5, 0, 0}) == 0);
+  CHECK(segment.nearest({9, 0, 0}) == 1);
+}

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "body/retarget.h"
+#include "collide/network_tubes.h"
+#include "collide/passages.h"
 #include "core/hash.h"
 #include "scene/correction_step.h"
 #include "scene/frame.h"
@@ -36,11 +38,34 @@ struct Played {
   float largestVolumeError = 0;
   float largestStep = 0;  // [m]
   std::uint32_t excess = 0, excessFrames = 0;
+  std::size_t passages = 0, posedPassages = 0;  // from frame to frame: as they are, and as the body has them
+};
+
+// What vessels pass through from one shape of the human's network to the next.
+class Watch {
+ public:
+  std::size_t next(std::span<const vec4> points) {
+    last_.swap(now_);
+    now_.resize(layout_.count());
+    layout_.shape(points, now_);
+    return last_.empty() ? 0 : search_.find(last_, now_).size();
+  }
+
+ private:
+  std::vector<Bezier> restTubes() const {
+    std::vector<Bezier> tubes(layout_.count());
+    layout_.shape(human().network.points(), tubes);
+    return tubes;
+  }
+  NetworkTubes layout_{human().network};
+  PassageSearch search_{restTubes(), layout_.neighbours().exclusions()};
+  std::vector<Bezier> now_, last_;
 };
 
 Played play(const Clip& clip, float framesPerSecond) {
   FrameMaker maker(human(), {.avoid = true});
   CorrectionSteps steps(human().network);
+  Watch watch, posedWatch;
   const Clip timing{.start = clip.start, .end = clip.end, .framesPerSecond = framesPerSecond};
   Played played;
   for (std::uint32_t frame = 0; frame < timing.frameCount(); ++frame) {
@@ -50,6 +75,8 @@ Played play(const Clip& clip, float framesPerSecond) {
     played.certified += report.after.holds();
     played.inBones += report.bonesAfter.contacts;
     played.loose += std::uint32_t(looseEnds(maker.points()));
+    played.passages += watch.next(maker.points());
+    played.posedPassages += posedWatch.next(maker.posedPoints());
     played.largestVolumeError = std::max(played.largestVolumeError, report.volume.largestError);
     const auto now = steps.next(maker.posedPoints(), maker.points());
     if (!now) continue;
@@ -78,6 +105,8 @@ TEST_CASE("the built-in human's vessels part in its motions without a jump") {
     CHECK(played.loose == 0);
     CHECK(played.largestVolumeError < 1e-4f);
     CHECK(played.excess == 0);
+    CHECK(played.passages == 0);
+    CHECK(played.posedPassages > 5);
   }
 }
 
@@ -89,6 +118,7 @@ TEST_CASE("the same motion at four times the frames changes corrections by a thi
   CHECK(fine.loose == 0);
   CHECK(fine.largestVolumeError < 1e-4f);
   CHECK(fine.excess == 0);
+  CHECK(fine.passages == 0);
   CHECK(fine.largestStep < coarse.largestStep / 3);
 }
 
