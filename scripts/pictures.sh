@@ -93,10 +93,10 @@ only='--clip stand --hide skin,bones,organs'
   done
   row levels level1 level2 level3
 
-  draw brain 240x240 --clip stand --hide skin,bones,organs --capillaries 3 --camera 0.5,1.68,0.25/0,1.66,0/20
-  draw face 240x240 --clip stand --hide skin,bones,organs --capillaries 3 --camera 0.12,1.62,0.6/0,1.6,0.03/20
-  draw hand 240x240 --clip stand --hide skin --capillaries 3 --focus LeftHand --distance 0.7
-  draw foot 240x240 --clip stand --hide skin --capillaries 3 --focus LeftFoot --distance 0.7
+  draw brain 300x300 --clip stand --hide skin,bones,organs --capillaries 2 --camera 0.5,1.68,0.25/0,1.66,0/20
+  draw face 300x300 --clip stand --hide skin,organs --capillaries 2 --camera 0.15,1.62,0.6/0,1.59,0.03/20
+  draw hand 300x300 --clip stand --hide skin --capillaries 3 --camera 0.36,0.8,0.65/0.325,0.795,0.03/22
+  draw foot 300x300 --clip stand --hide skin --capillaries 3 --camera 0.42,0.3,0.55/0.145,0.07,0.06/22
   row regions brain face hand foot
 }
 
