@@ -1,23 +1,15 @@
 #pragma once
-#include "growth/capillary.h"
+#include <vector>
 
+#include "shared/growth.h"
+
+// A curve as a ribbon of `edges` quads that faces the camera: the shared polyline with its thickness, and
+// shared::kSoftEdge pixels more on both sides, over which it fades: so a thin curve covers a pixel by the
+// share that it takes of it, wherever it lies between pixels, and nothing glitters in motion. It reaches
+// half a radius beyond both ends, so that no wedge opens where branches part. What lies deep below the skin,
+// as it is seen, is darker and fades. A curve thinner than a pixel is a thread: a ribbon of two edges, a
+// leaf, which most curves are, one of one edge. In C++: tests/reference/ribbon.h.
 namespace vasa {
-
-/// A curve as a ribbon of `edges` quads that faces the camera: the shared polyline with its thickness, and
-/// shared::kSoftEdge pixels more on both sides, over which it fades: so a thin curve covers a pixel by the
-/// share that it takes of it, wherever it lies between pixels, and nothing glitters in motion. It reaches
-/// half a radius beyond both ends, so that no wedge opens where branches part. What lies deep below the skin,
-/// as it is seen, is darker and fades. The CPU reference of shaders/capillary.comp.
-/// @param root      colour of the vessel, sRGB, red lowest
-/// @param vertices  2 · (edges + 1), the two sides by turns
-void writeRibbon(const Capillary& capillary, const shared::GrowthView& view, std::uint32_t root,
-                 std::uint32_t edges, std::span<shared::CapillaryVertex> vertices);
-
-/// A curve thinner than a pixel as a ribbon of two edges; a leaf, which most curves are, as one of one edge:
-/// its last two vertices are those before them.
-/// @param vertices  shared::kThreadVertices
-void writeThread(const Capillary& capillary, const shared::GrowthView& view, std::uint32_t root,
-                 std::span<shared::CapillaryVertex> vertices);
 
 /// Vertices and triangles of `copies` ribbons, one behind the other; of threads where edges are
 /// shared::kThreads.

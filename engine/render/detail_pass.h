@@ -3,7 +3,7 @@
 #include "render/camera.h"
 #include "render/look.h"
 #include "render/tube_set.h"
-#include "surface/visible.h"
+#include "surface/detail.h"
 
 namespace vasa {
 
@@ -13,8 +13,8 @@ shared::DetailView detailView(const Camera& camera, const Look& look, const Pict
 /// @param samples  a pixel: 1 or 4
 PictureGrid pictureGrid(const gpu::Device& device, VkExtent2D size, std::uint32_t samples = 1);
 
-/// Chooses m of each vessel and n of each sweep by the rule of surface/detail.h, its CPU reference. Owns what
-/// it writes, for every pass that has to match the tubes' rings.
+/// Chooses m of each vessel and n of each sweep by the rule of surface/detail.h. Owns what it writes, for
+/// every pass that has to match the tubes' rings. CPU reference: tests/reference/detail.h.
 class DetailPass {
  public:
   DetailPass(gpu::Device& device, const TubeSet& tubes);

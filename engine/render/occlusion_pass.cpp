@@ -1,5 +1,7 @@
 #include "render/occlusion_pass.h"
 
+#include <cmath>
+
 #include "gpu/barrier.h"
 #include "spirv/occlude_frag.h"
 #include "spirv/occlusion_frag.h"
@@ -64,14 +66,7 @@ void drawInto(VkCommandBuffer commands, const gpu::Image& light, const gpu::Targ
   colour.clearValue.color.float32[0] = 1;
   const VkRenderingAttachmentInfo depth = gpu::attachment(
       target.readableDepth(), gpu::kReadDepthLayout, VK_ATTACHMENT_LOAD_OP_LOAD, VK_ATTACHMENT_STORE_OP_NONE);
-  VkRenderingInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
-  info.renderArea.extent = light.size();
-  info.layerCount = 1;
-  info.colorAttachmentCount = 1;
-  info.pColorAttachments = &colour;
-  info.pDepthAttachment = &depth;
-  vkCmdBeginRendering(commands, &info);
+  gpu::beginRendering(commands, light.size(), &colour, &depth);
   target.setViewport(commands);
   draw(commands, pipeline, images, push);
   vkCmdEndRendering(commands);
@@ -83,6 +78,24 @@ void drawInto(VkCommandBuffer commands, const gpu::Image& light, const gpu::Targ
 }
 
 }  // namespace
+
+shared::OcclusionPush occlusionConstants(const Camera& camera, std::uint32_t width, std::uint32_t height,
+                                         float reach, float strength) {
+  shared::OcclusionPush push{};
+  push.width = width;
+  push.height = height;
+  push.reach = reach;
+  push.strength = strength;
+  const float aspect = float(width) / float(height);
+  const bool flat = camera.orthographicHeight > 0;
+  const float top = flat ? camera.orthographicHeight / 2 : std::tan(camera.verticalAngle / 2);
+  push.corner = {-top * aspect, top};
+  push.step = {2 * top / float(height), -2 * top / float(height)};
+  push.perspective = flat ? 0.0f : 1.0f;
+  const float range = camera.farDistance - camera.nearDistance;
+  push.fromDepth = flat ? vec4(camera.farDistance, -range, 1, 0) : vec4(camera.nearDistance, 0, 0, 1);
+  return push;
+}
 
 OcclusionPass::Images::Images(gpu::Device& device, const gpu::Target& target)
     : raw(makeLight(device, "occlusion, raw", target)),

@@ -2,11 +2,19 @@
 #include "gpu/graphics_pipeline.h"
 #include "gpu/image_set.h"
 #include "gpu/target.h"
-#include "render/occlusion.h"
+#include "render/camera.h"
+#include "shared/occlusion.h"
 
 namespace vasa {
 
-/// Ambient occlusion of what is drawn so far, from the target's depth. CPU reference: render/occlusion.h.
+/// How places follow from a picture's depth, and how far occlusion reaches.
+/// @param reach     [m]
+/// @param strength  0 to 1
+shared::OcclusionPush occlusionConstants(const Camera& camera, std::uint32_t width, std::uint32_t height,
+                                         float reach, float strength);
+
+/// Ambient occlusion of what is drawn so far, from the target's depth. CPU reference:
+/// tests/reference/occlusion.h.
 /// Fragment shaders behind a depth test, not compute: a CPU device leaves out where nothing is drawn.
 class OcclusionPass {
  public:

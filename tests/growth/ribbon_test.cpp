@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include "reference/ribbon.h"
+
 using namespace vasa;
 
 namespace {

@@ -5,6 +5,7 @@
 
 #include "gpu/gpu_rig.h"
 #include "growth/ribbon.h"
+#include "reference/ribbon.h"
 #include "render/capillary_pass.h"
 #include "render/picture.h"
 #include "render/renderer.h"

@@ -3,10 +3,10 @@
 
 #include "gpu/barrier.h"
 #include "gpu/gpu_rig.h"
+#include "reference/detail.h"
 #include "render/fork_pass.h"
 #include "render/patch_pass.h"
 #include "support/manifold.h"
-#include "surface/detail.h"
 #include "surface/fork.h"
 
 namespace vasa::test {

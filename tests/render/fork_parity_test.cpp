@@ -7,9 +7,9 @@
 #include <set>
 
 #include "drawn_surface.h"
+#include "reference/detail.h"
 #include "support/frames.h"
 #include "support/networks.h"
-#include "surface/detail.h"
 #include "surface/fork_check.h"
 #include "surface/fork_template.h"
 #include "surface/octahedral.h"

@@ -1,10 +1,9 @@
-#include "render/occlusion.h"
-
 #include <doctest/doctest.h>
 
 #include "gpu/barrier.h"
 #include "gpu/gpu_rig.h"
 #include "network/measure.h"
+#include "reference/occlusion.h"
 #include "render/occlusion_pass.h"
 #include "render/surface_pass.h"
 #include "support/frames.h"

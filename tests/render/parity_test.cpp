@@ -9,16 +9,16 @@
 #include "body/skinning.h"
 #include "gpu/barrier.h"
 #include "gpu/gpu_rig.h"
+#include "reference/detail.h"
+#include "reference/visible.h"
 #include "render/frame_upload.h"
 #include "render/skin_pass.h"
 #include "render/tube_pass.h"
 #include "shared/sweep.h"
 #include "support/frames.h"
 #include "support/networks.h"
-#include "surface/detail.h"
 #include "surface/octahedral.h"
 #include "surface/tessellate.h"
-#include "surface/visible.h"
 
 // The compute passes against their CPU references: 1e-5 of the body's height (here 1 m) in position, 1e-3 in
 // normals, at sizes that are no multiple of the workgroup.

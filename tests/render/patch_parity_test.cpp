@@ -7,10 +7,10 @@
 
 #include "convert/forked_source.h"
 #include "drawn_surface.h"
+#include "reference/visible.h"
 #include "support/frames.h"
 #include "surface/octahedral.h"
 #include "surface/patch_smooth.h"
-#include "surface/visible.h"
 
 // The patches' pass against its CPU reference: 1e-6 m in position, 2e-4 in normals (they are packed to 7e-5),
 // triangles alike, and 2e-5 m (4e-5 on a GPU) where steps of smoothing start from packed normals that differ
@@ -58,7 +58,7 @@ void checkPatchesAgainstReference(const Forks& passes, float apart = 1e-6f, floa
 
 using CornerIndices = std::array<std::uint32_t, 3>;
 
-// Triangles that the rule of surface/visible.h lets be seen, of all that are drawn otherwise.
+// Triangles that the rule of reference/visible.h lets be seen, of all that are drawn otherwise.
 std::vector<CornerIndices> seenOf(const test::Drawn& whole, const shared::DetailView& view) {
   const auto placeOf = [&](std::uint32_t vertex) {
     const shared::TubeVertex& v = whole.vertices[vertex];

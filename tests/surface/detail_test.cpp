@@ -1,4 +1,4 @@
-#include "surface/detail.h"
+#include "reference/detail.h"
 
 #include <doctest/doctest.h>
 

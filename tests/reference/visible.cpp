@@ -1,4 +1,4 @@
-#include "surface/visible.h"
+#include "reference/visible.h"
 
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "render/occlusion.h"
+#include "reference/occlusion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -72,24 +72,6 @@ class Picture {
 };
 
 }  // namespace
-
-shared::OcclusionPush occlusionConstants(const Camera& camera, std::uint32_t width, std::uint32_t height,
-                                         float reach, float strength) {
-  shared::OcclusionPush push{};
-  push.width = width;
-  push.height = height;
-  push.reach = reach;
-  push.strength = strength;
-  const float aspect = float(width) / float(height);
-  const bool flat = camera.orthographicHeight > 0;
-  const float top = flat ? camera.orthographicHeight / 2 : std::tan(camera.verticalAngle / 2);
-  push.corner = {-top * aspect, top};
-  push.step = {2 * top / float(height), -2 * top / float(height)};
-  push.perspective = flat ? 0.0f : 1.0f;
-  const float range = camera.farDistance - camera.nearDistance;
-  push.fromDepth = flat ? vec4(camera.farDistance, -range, 1, 0) : vec4(camera.nearDistance, 0, 0, 1);
-  return push;
-}
 
 std::vector<float> occlusionOf(std::span<const float> depth, const shared::OcclusionPush& constants) {
   const Picture picture(depth, constants);

@@ -1,16 +1,7 @@
 #pragma once
-#include <cstdint>
-
-#include "math/types.h"
+#include "surface/detail.h"
 
 namespace vasa {
-
-/// Where a picture is sampled.
-struct PictureGrid {
-  vec2 size;                  ///< [pixels]
-  float snap = 0;             ///< [pixels] how far a rasteriser may move a corner in each coordinate
-  std::uint32_t samples = 1;  ///< a pixel: 1 in its middle, or 4 at Vulkan's standard places
-};
 
 /// Which triangles of a quad may cover a sample of the picture with their fronts: bit 0 for (a, b, c), bit 1
 /// for (a, c, d). A bit is left out only if the triangle certainly covers none, however the rasteriser moves

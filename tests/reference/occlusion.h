@@ -2,16 +2,10 @@
 #include <span>
 #include <vector>
 
-#include "render/camera.h"
+#include "math/types.h"
 #include "shared/occlusion.h"
 
 namespace vasa {
-
-/// How places follow from a picture's depth, and how far occlusion reaches.
-/// @param reach     [m]
-/// @param strength  0 to 1
-shared::OcclusionPush occlusionConstants(const Camera& camera, std::uint32_t width, std::uint32_t height,
-                                         float reach, float strength);
 
 /// Ambient occlusion of a picture from its depth: the share of ambient light that is left at each pixel.
 /// CPU references of shaders/occlusion.frag and smooth.frag.
