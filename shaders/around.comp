@@ -1,8 +1,6 @@
 #version 460
-// A thread a vessel: how many quads around the picture asks for. CPU reference: engine/surface/detail.h.
+// A thread a vessel: how many quads around the picture asks for. CPU reference: tests/reference/detail.h.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #include "lib/records.glsl"
 
 layout(local_size_x = 64) in;

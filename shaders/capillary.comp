@@ -1,8 +1,6 @@
 #version 460
-// An invocation grows one capillary and writes its ribbon or thread. CPU reference: engine/growth/capillary.h and ribbon.h.
+// An invocation grows one capillary and writes its ribbon or thread. CPU reference: engine/growth/capillary.h, tests/reference/ribbon.h.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #include "lib/growth.glsl"
 #include "lib/records.glsl"
 
@@ -23,11 +21,8 @@ GrowthJob jobOf(uint curve) {
 // sectionOn of engine/surface/tessellate.cpp.
 Section sectionOn(uint span, float t) {
   SweepRecord record = sweepAt(push.spans, span);
-  Bezier bezier = bezierOf(spanClassAt(push.tables, record.spanClass), vec4Of(push.points.point[record.point]),
-                           vec4Of(push.points.point[record.point + 1]), vec4Of(push.points.point[record.point + 2]),
-                           vec4Of(push.points.point[record.point + 3]));
-  vec3 chord = vec4Of(push.points.point[record.lastPoint]).xyz - vec4Of(push.points.point[record.firstPoint]).xyz;
-  return sectionAt(bezier, chord, vec4Of(push.knots.knot[record.knot]), vec4Of(push.knots.knot[record.knot + 1]), t);
+  Bezier bezier = spanAt(push.points, push.tables, record.point, record.spanClass);
+  return sectionAt(bezier, chordOf(push.points, record.firstPoint, record.lastPoint), vec4Of(push.knots.knot[record.knot]), vec4Of(push.knots.knot[record.knot + 1]), t);
 }
 
 // Member by member, as the box: GPU-assisted validation takes a struct that is loaded whole for larger than it is.

@@ -2,13 +2,9 @@
 // A ribbon lit as the round vessel it stands for; in x-ray, light that adds up. It fades towards its edges over a fixed
 // number of pixels: the share of the pixel that the curve covers, wherever it lies between pixels.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
 #include "lib/shade.glsl"
-#include "shared/draw.h"
-#include "shared/soft_edge.h"
-
-layout(push_constant, std430) uniform Push { DrawPush push; };
 #include "lib/view.glsl"
+
 layout(location = 0) in vec4 tint;
 layout(location = 1) in vec3 side;
 layout(location = 0) out vec4 pixel;  // premultiplied

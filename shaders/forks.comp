@@ -3,9 +3,7 @@
 // template has room for the group. What a thread writes has its place by the threads before it in the group.
 // CPU references: engine/surface/fork.h, fork_smooth.h, fork_stump.h, fork_template.h, visible.h.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
 #extension GL_EXT_control_flow_attributes : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #include "lib/picture_place.glsl"
 #include "lib/ring.glsl"
 

@@ -1,9 +1,7 @@
 #version 460
 // A thread a sweep: is it in view, how many quads along does the picture ask for, and how large is its vessel on it.
-// CPU reference: engine/surface/detail.h.
+// CPU reference: tests/reference/detail.h.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #include "lib/detail.glsl"
 #include "lib/records.glsl"
 

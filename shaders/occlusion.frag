@@ -1,6 +1,6 @@
 #version 460
 // How much of the sky the surfaces around a pixel take away, from depth alone (McGuire, Osman, Bukowski, Hennessy 2011).
-// CPU reference: engine/render/occlusion.h.
+// CPU reference: tests/reference/occlusion.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "shared/occlusion.h"

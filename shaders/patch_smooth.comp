@@ -1,8 +1,6 @@
 #version 460
 // A workgroup a strained patch. CPU reference: smoothPatch() of engine/surface/patch_smooth.h.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #include "lib/ring.glsl"
 #include "lib/fork.glsl"
 #include "lib/ramp.glsl"

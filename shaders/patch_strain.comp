@@ -2,8 +2,6 @@
 // One workgroup for all patches: those that their rings strain, and the dispatch that smooths them.
 // CPU reference: patchSmoothing() of engine/surface/patch_smooth.h.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #include "lib/ramp.glsl"
 #include "lib/section.glsl"
 #include "lib/words.glsl"

@@ -1,9 +1,7 @@
 #version 460
 // A workgroup a run of triangles of patches and their strips: those that may be seen, in their order, and an indirect draw.
-// CPU reference: engine/surface/visible.h.
+// CPU reference: tests/reference/visible.h.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #include "lib/picture_place.glsl"
 #include "lib/records.glsl"
 #include "lib/words.glsl"
@@ -39,10 +37,7 @@ void main() {
   uint start = 3 * kPatchThreads * kThreadTriangles * group, target = start + 3 * before;
   for (uint k = 0; k < kThreadTriangles; ++k) {
     if ((seen >> k & 1u) == 0u) continue;
-    uvec3 t = triangleAt(first + k);
-    push.indices.value[target] = t.x;
-    push.indices.value[target + 1] = t.y;
-    push.indices.value[target + 2] = t.z;
+    writeTriangle(push.indices, target, triangleAt(first + k));
     target += 3;
   }
   if (local == kPatchThreads - 1) push.draws.draw[group] = DrawCommand(3 * (before + count), 1, start, 0, 0);

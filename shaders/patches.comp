@@ -1,8 +1,6 @@
 #version 460
 // A thread a seam of a patch. CPU reference: engine/surface/patch.h.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #include "lib/ring.glsl"
 #include "lib/fork.glsl"
 #include "shared/patch.h"
@@ -72,10 +70,8 @@ void writeJoint(uint i, PatchSeam seam, Section section, Turn turn) {
 }
 
 uint corner = 0;
-void writeTriangle(uvec3 t) {
-  push.indices.value[corner] = t.x;
-  push.indices.value[corner + 1] = t.y;
-  push.indices.value[corner + 2] = t.z;
+void addTriangle(uvec3 t) {
+  writeTriangle(push.indices, corner, t);
   corner += 3;
 }
 
@@ -109,10 +105,10 @@ void main() {
     for (; before < after; ++before) {
       uint following = before + 1;
       uint to = seam.vertex + (backwards ? first + around - following % around : first + following) % around;
-      writeTriangle(uvec3(loop, to, at));
+      addTriangle(uvec3(loop, to, at));
       at = to;
     }
-    writeTriangle(uvec3(loop, next, at));
+    addTriangle(uvec3(loop, next, at));
   }
-  for (uint rest = around; rest < kMaxAround; ++rest) writeTriangle(uvec3(seam.vertex));  // no area
+  for (uint rest = around; rest < kMaxAround; ++rest) addTriangle(uvec3(seam.vertex));  // no area
 }

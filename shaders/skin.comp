@@ -1,8 +1,6 @@
 #version 460
 // Linear blend skinning, one thread a vertex.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #include "lib/octahedral.glsl"
 #include "lib/words.glsl"
 #include "shared/skin.h"

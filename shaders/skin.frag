@@ -1,12 +1,9 @@
 #version 460
 // A thin translucent shell: more of it is in the line of sight at the outline, so that vessels read through its middle.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
 #include "lib/shade.glsl"
-#include "shared/draw.h"
-
-layout(push_constant, std430) uniform Push { DrawPush push; };
 #include "lib/view.glsl"
+
 layout(location = 0) in vec3 normal;
 layout(location = 1) flat in vec4 colour;
 layout(location = 0) out vec4 pixel;  // premultiplied

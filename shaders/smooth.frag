@@ -1,5 +1,5 @@
 #version 460
-// The mean of occlusion over a tile of a pixel's neighbours on the same surface. CPU reference: engine/render/occlusion.h.
+// The mean of occlusion over a tile of a pixel's neighbours on the same surface. CPU reference: tests/reference/occlusion.h.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "shared/occlusion.h"

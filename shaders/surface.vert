@@ -1,12 +1,9 @@
 #version 460
 // Tubes, caps and meshes: 16-byte vertices, one colour an item.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
 #include "lib/octahedral.glsl"
-#include "shared/draw.h"
-
-layout(push_constant, std430) uniform Push { DrawPush push; };
 #include "lib/view.glsl"
+
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec2 foldedNormal;
 layout(location = 0) out vec3 normal;  // in the camera's axes

@@ -1,8 +1,6 @@
 #version 460
 // One workgroup: what of a round is drawn, and where the next one begins (shared/filling.h).
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #include "shared/tubes.h"
 
 layout(local_size_x = kPlanThreads) in;

@@ -2,10 +2,8 @@
 // A thread a sweep, a workgroup a group. First which triangles between two rings may be seen, then, if the template has room
 // for the group, the vertices that these need, ring by ring, and the triangles. What a thread writes has its place by the
 // threads before it in the group.
-// CPU references: engine/surface/tessellate.h, engine/surface/visible.h.
+// CPU references: engine/surface/tessellate.h, tests/reference/visible.h.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #include "lib/capped_sweep.glsl"
 #include "lib/picture_ring.glsl"
 #include "lib/ring.glsl"
@@ -95,10 +93,7 @@ void writeTriangles(Item it, uint vertex, uint target) {
       first = RingVertices(vertex + firsts[strip], needed[strip]);
       second = RingVertices(vertex + firsts[strip + 1], needed[strip + 1]);
     }
-    uvec3 corners = stripTriangle(uint(findLSB(mask)), first, second, it.around);
-    indices.value[target] = corners.x;
-    indices.value[target + 1] = corners.y;
-    indices.value[target + 2] = corners.z;
+    writeTriangle(indices, target, stripTriangle(uint(findLSB(mask)), first, second, it.around));
     target += 3;
     mask &= mask - 1;
   }

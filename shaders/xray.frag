@@ -2,11 +2,8 @@
 // Light that gathers along the line of sight, most where a surface turns away; added up, so the order of surfaces does
 // not matter.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#include "shared/draw.h"
-
-layout(push_constant, std430) uniform Push { DrawPush push; };
 #include "lib/view.glsl"
+
 layout(location = 0) in vec3 normal;
 layout(location = 1) flat in vec4 colour;
 layout(location = 0) out vec4 pixel;  // premultiplied

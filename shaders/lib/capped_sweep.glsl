@@ -11,7 +11,7 @@ struct Item {
 vec2 polars[kCapRings + 1];
 vec2 directions[kMaxAround];
 
-// @param fixedQuads  m is not the picture's choice (capRings() of engine/surface/detail.h)
+// @param fixedQuads  m is not the picture's choice (capRings() of tests/reference/detail.h)
 Item itemOf(SweepRecord record, uint sweep, uint along, uint around, bool fixedQuads) {
   uint capRings = !fixedQuads && around < kRoundAround ? 1 : kCapRings, before = capRings * (record.caps & 1u);
   return Item(sweep, along, around, before + along + 1 + capRings * (record.caps >> 1), before, capRings);

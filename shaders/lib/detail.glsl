@@ -1,4 +1,4 @@
-// Mirrors engine/surface/detail.cpp.
+// Mirrors tests/reference/detail.cpp.
 #ifndef VASA_DETAIL
 #define VASA_DETAIL
 #include "lib/section.glsl"

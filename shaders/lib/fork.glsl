@@ -2,7 +2,6 @@
 #ifndef VASA_FORK
 #define VASA_FORK
 #include "lib/records.glsl"
-#include "lib/section.glsl"
 #include "shared/fork.h"
 
 const float kRound = 0.55;  // of a quarter circle's control polygon
@@ -20,14 +19,9 @@ vec3 unitOr(vec3 a, vec3 otherwise) {
   return size2 > kTiny2 ? unit : otherwise;
 }
 
-Bezier spanAt(Points points, Tables tables, uint point, uint spanClass) {
-  return bezierOf(spanClassAt(tables, spanClass), vec4Of(points.point[point]), vec4Of(points.point[point + 1]),
-                  vec4Of(points.point[point + 2]), vec4Of(points.point[point + 3]));
-}
-
 Ring ringOf(Points points, Knots knots, Tables tables, ForkRing ring) {
   Bezier z = spanAt(points, tables, ring.point, ring.spanClass);
-  vec3 chord = vec4Of(points.point[ring.lastPoint]).xyz - vec4Of(points.point[ring.firstPoint]).xyz;
+  vec3 chord = chordOf(points, ring.firstPoint, ring.lastPoint);
   return Ring(sectionAt(z, chord, vec4Of(knots.knot[ring.knot]), vec4Of(knots.knot[ring.knot + 1]), ring.t), derivativeAt(z, ring.t),
               ring.turn);
 }

@@ -1,4 +1,4 @@
-// Light on tubes and meshes. The shader has `push` (shared/draw.h).
+// Light on tubes and meshes.
 #ifndef VASA_OPAQUE
 #define VASA_OPAQUE
 #include "lib/shade.glsl"

@@ -2,7 +2,7 @@
 // loaded.
 #ifndef VASA_RECORDS
 #define VASA_RECORDS
-#include "lib/words.glsl"
+#include "lib/section.glsl"
 #include "shared/tubes.h"
 
 SweepRecord sweepAt(Sweeps sweeps, uint i) {
@@ -22,6 +22,21 @@ mat4 spanClassAt(Tables tables, uint spanClass) {
   m[2] = vec4(vec2Of(tables.word[first + 4]), vec2Of(tables.word[first + 4 + 1]));
   m[3][3] = vec2Of(tables.word[first + 7]).y;
   return m;
+}
+
+Bezier spanAt(Points points, Tables tables, uint point, uint spanClass) {
+  return bezierOf(spanClassAt(tables, spanClass), vec4Of(points.point[point]), vec4Of(points.point[point + 1]),
+                  vec4Of(points.point[point + 2]), vec4Of(points.point[point + 3]));
+}
+
+vec3 chordOf(Points points, uint first, uint last) {
+  return vec4Of(points.point[last]).xyz - vec4Of(points.point[first]).xyz;
+}
+
+void writeTriangle(UintsOut indices, uint first, uvec3 triangle) {
+  indices.value[first] = triangle.x;
+  indices.value[first + 1] = triangle.y;
+  indices.value[first + 2] = triangle.z;
 }
 
 const uint kStepWord = 8 * kSpanClasses, kHalfStepWord = kStepWord + kMaxAround + 1, kPolarWord = kHalfStepWord + kMaxAround + 1,

@@ -1,4 +1,4 @@
-// Mirrors engine/growth/ribbon.cpp. The shader has `push` (CapillaryPush of shared/growth.h).
+// Mirrors tests/reference/ribbon.cpp. The shader has `push` (CapillaryPush of shared/growth.h).
 #ifndef VASA_RIBBON
 #define VASA_RIBBON
 #include "lib/growth.glsl"

@@ -3,7 +3,6 @@
 #define VASA_RING
 #include "lib/octahedral.glsl"
 #include "lib/records.glsl"
-#include "lib/section.glsl"
 
 // What all rings of a sweep share. The last ring is the first one of the span behind it, bit for bit.
 struct SweepCurve {
@@ -37,7 +36,7 @@ SweepCurve sweepCurve(Points points, Knots knots, Tables tables, SweepRecord rec
   }
   curve.chord = vec3(0);
   if (!hasChord(curve.own) || !hasChord(curve.next))
-    curve.chord = vec4Of(points.point[record.lastPoint]).xyz - vec4Of(points.point[record.firstPoint]).xyz;
+    curve.chord = chordOf(points, record.firstPoint, record.lastPoint);
   return curve;
 }
 

@@ -1,6 +1,9 @@
-// Where a pixel is seen from and what lies before the camera's cutting plane. The shader has `push` (shared/draw.h).
+// Where a pixel is seen from and what lies before the camera's cutting plane.
 #ifndef VASA_VIEW
 #define VASA_VIEW
+#include "shared/draw.h"
+
+layout(push_constant, std430) uniform Push { DrawPush push; };
 
 // Samples a pixel where surfaces are partial, cut off or translucent; 0: all are whole.
 layout(constant_id = 1) const uint kPartial = 0;

@@ -1,10 +1,10 @@
-// Mirrors engine/surface/visible.cpp: may a quad's triangles cover a sample of the picture with their fronts?
+// Mirrors tests/reference/visible.cpp: may a quad's triangles cover a sample of the picture with their fronts?
 #ifndef VASA_VISIBLE
 #define VASA_VISIBLE
 #include "shared/detail.h"
 #include "shared/tubes.h"
 
-// Where a picture is sampled, as engine/surface/visible.h has it.
+// Where a picture is sampled, as engine/surface/detail.h has it.
 struct PictureGrid {
   vec2 size;
   float snap;

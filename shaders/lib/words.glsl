@@ -4,6 +4,7 @@
 #define VASA_WORDS
 
 #ifdef VASA_INT64
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #define Word uint64_t
 #define Word2 u64vec2
 uvec2 halvesOf(Word word) { return unpack32(word); }

@@ -3,11 +3,7 @@
 #define VASA_SHARED_DETAIL_H
 #include "shared/sweep.h"
 #ifdef __cplusplus
-#include <cstddef>
 namespace vasa::shared {
-#define VASA_CONSTANT constexpr
-#else
-#define VASA_CONSTANT const
 #endif
 
 /// Quads around a vessel whose m the picture decides: for one no thicker than its tolerance, and least for
@@ -39,5 +35,4 @@ struct DetailView {
 static_assert(sizeof(DetailView) == 48 + 80 + 16 + 48 && offsetof(DetailView, rows) == 22 * 8);
 }  // namespace vasa::shared
 #endif
-#undef VASA_CONSTANT
 #endif

@@ -2,22 +2,16 @@
 // stage needs is here, too: a uniform load costs far less than one through an address on a CPU device.
 #ifndef VASA_SHARED_DRAW_H
 #define VASA_SHARED_DRAW_H
+#include "shared/language.h"
 #ifdef __cplusplus
-#include <cstddef>
-#include <cstdint>
-
-#include "math/types.h"
 namespace vasa::shared {
-using uint = std::uint32_t;
-#define VASA_ADDRESS(Block) std::uint64_t
-#define VASA_CONSTANT constexpr
 #else
-#define VASA_CONSTANT const
-layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Colours { uint colour[]; };
-#define VASA_ADDRESS(Block) Block
+VASA_MEMORY(4) readonly buffer Colours { uint colour[]; };
 #endif
 
 VASA_CONSTANT uint kMeshKind = 8;
+/// [pixels] from a capillary's edge outwards and inwards, over which it fades.
+VASA_CONSTANT float kSoftEdge = 0.75;
 
 /// Vertex v of a draw belongs to item v >> itemShift, which has one colour: sRGB, 8 bits each, red lowest;
 /// the highest 8 bits are the item's kind (below 32): those of vessels, then kMeshKind + the role of a mesh.
@@ -39,6 +33,4 @@ struct DrawPush {
 static_assert(sizeof(DrawPush) == 128 && offsetof(DrawPush, colours) == 112);
 }  // namespace vasa::shared
 #endif
-#undef VASA_ADDRESS
-#undef VASA_CONSTANT
 #endif

@@ -12,9 +12,6 @@
 #include "shared/detail.h"
 #ifdef __cplusplus
 namespace vasa::shared {
-#define VASA_CONSTANT constexpr
-#else
-#define VASA_CONSTANT const
 #endif
 
 /// Most groups of tubes and of forks in a round, each a draw.
@@ -40,12 +37,9 @@ struct Filling {
 };
 
 #ifndef __cplusplus
-layout(buffer_reference, std430, buffer_reference_align = 4) coherent buffer Fill { Filling state; };
-#endif
-
-#ifdef __cplusplus
+VASA_MEMORY(4) coherent buffer Fill { Filling state; };
+#else
 static_assert(sizeof(Filling) == 68 && offsetof(Filling, tubeGroups) == 44 && sizeof(FillRoom) == 16);
 }  // namespace vasa::shared
 #endif
-#undef VASA_CONSTANT
 #endif

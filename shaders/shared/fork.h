@@ -4,9 +4,6 @@
 #include "shared/tubes.h"
 #ifdef __cplusplus
 namespace vasa::shared {
-#define VASA_CONSTANT constexpr
-#else
-#define VASA_CONSTANT const
 #endif
 
 /// Rows of a fork's trunk, both rings of its tubes included.
@@ -61,13 +58,8 @@ VASA_CONSTANT uint kMostForkVertices = (kTrunkRows + kMostBranches * (1 + kColla
 VASA_CONSTANT uint kMostForkPieces = kMostForkVertices + 4 * kMostBranches;
 
 #ifndef __cplusplus
-layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Forks { ForkRecord fork[]; };
-layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Branches {
-  ForkBranch branch[];
-};
-#define VASA_ADDRESS(Block) Block
-#else
-#define VASA_ADDRESS(Block) std::uint64_t
+VASA_MEMORY(4) readonly buffer Forks { ForkRecord fork[]; };
+VASA_MEMORY(4) readonly buffer Branches { ForkBranch branch[]; };
 #endif
 
 /// Of forks.comp: a thread a fork, a workgroup a group of them -> vertices, indices of the triangles that may
@@ -97,6 +89,4 @@ static_assert(sizeof(ForkRing) == 28 && sizeof(ForkBranch) == 76 && sizeof(ForkR
               sizeof(ForksPush) == 120);
 }  // namespace vasa::shared
 #endif
-#undef VASA_CONSTANT
-#undef VASA_ADDRESS
 #endif

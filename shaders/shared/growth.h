@@ -1,17 +1,10 @@
 // Read by C++ and GLSL (std430): what capillaries grow from, and how one frame draws them.
 #ifndef VASA_SHARED_GROWTH_H
 #define VASA_SHARED_GROWTH_H
-#include "shared/soft_edge.h"
+#include "shared/draw.h"
 #include "shared/tubes.h"
 #ifdef __cplusplus
-#include <cstddef>
 namespace vasa::shared {
-#define VASA_CONSTANT constexpr
-#define VASA_FUNCTION constexpr
-#define VASA_ADDRESS(Block) std::uint64_t
-#else
-#define VASA_CONSTANT const
-#define VASA_FUNCTION
 #endif
 
 VASA_CONSTANT uint kMostGrowthLevels = 6;  // generations of a tree
@@ -121,15 +114,12 @@ struct CapillaryVertex {
 };
 
 #ifndef __cplusplus
-layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Growth { GrowthTables growth; };
-layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Beds { GrowthBed bed[]; };
-layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Jobs { GrowthJob job[]; };
-layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Views { GrowthView view; };
-layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer SpanColours { uint colour[]; };
-layout(buffer_reference, std430, buffer_reference_align = 8) writeonly buffer Ribbons {
-  Word word[];
-};  // three a vertex
-#define VASA_ADDRESS(Block) Block
+VASA_MEMORY(4) readonly buffer Growth { GrowthTables growth; };
+VASA_MEMORY(4) readonly buffer Beds { GrowthBed bed[]; };
+VASA_MEMORY(4) readonly buffer Jobs { GrowthJob job[]; };
+VASA_MEMORY(4) readonly buffer Views { GrowthView view; };
+VASA_MEMORY(4) readonly buffer SpanColours { uint colour[]; };
+VASA_MEMORY(8) writeonly buffer Ribbons { Word word[]; };  // three a vertex
 #endif
 
 /// Of capillary.comp: one batch of curves.
@@ -157,6 +147,4 @@ static_assert(sizeof(GrowthStem) == 64 && sizeof(GrowthBed) == 304 && sizeof(Gro
 static_assert(sizeof(GrowthView) == 64 + 5 * 16 && sizeof(CapillaryPush) == 96);
 }  // namespace vasa::shared
 #endif
-#undef VASA_ADDRESS
-#undef VASA_CONSTANT
 #endif

@@ -14,11 +14,6 @@
 #include "shared/skin.h"
 #ifdef __cplusplus
 namespace vasa::shared {
-#define VASA_ADDRESS(Block) std::uint64_t
-#define VASA_CONSTANT constexpr
-#else
-#define VASA_ADDRESS(Block) Block
-#define VASA_CONSTANT const
 #endif
 
 /// Threads of a workgroup that looks at triangles, and triangles of a thread.
@@ -69,23 +64,17 @@ struct StrainedPatch {
 };
 
 #ifndef __cplusplus
-layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Seams { PatchSeam seam[]; };
-layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Shares { float share[]; };
-layout(buffer_reference, std430, buffer_reference_align = 8) writeonly buffer JointsOut { Word2 row[]; };
-layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer VerticesIn { Word2 vertex[]; };
-layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer PatchWalls { PatchWall wall[]; };
-layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer PatchJoints { Word2 row[]; };
-layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Fans { Word triangle[]; };
-layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Strained {
-  StrainedPatch patches[];
-};
-layout(buffer_reference, std430, buffer_reference_align = 4) writeonly buffer StrainedOut {
-  StrainedPatch patches[];
-};
-layout(buffer_reference, std430, buffer_reference_align = 4) writeonly buffer DispatchOut { uint x, y, z; };
-layout(buffer_reference, std430, buffer_reference_align = 8) coherent buffer SmoothedVertices {
-  Word2 vertex[];
-};
+VASA_MEMORY(4) readonly buffer Seams { PatchSeam seam[]; };
+VASA_MEMORY(4) readonly buffer Shares { float share[]; };
+VASA_MEMORY(8) writeonly buffer JointsOut { Word2 row[]; };
+VASA_MEMORY(8) readonly buffer VerticesIn { Word2 vertex[]; };
+VASA_MEMORY(4) readonly buffer PatchWalls { PatchWall wall[]; };
+VASA_MEMORY(8) readonly buffer PatchJoints { Word2 row[]; };
+VASA_MEMORY(8) readonly buffer Fans { Word triangle[]; };
+VASA_MEMORY(4) readonly buffer Strained { StrainedPatch patches[]; };
+VASA_MEMORY(4) writeonly buffer StrainedOut { StrainedPatch patches[]; };
+VASA_MEMORY(4) writeonly buffer DispatchOut { uint x, y, z; };
+VASA_MEMORY(8) coherent buffer SmoothedVertices { Word2 vertex[]; };
 #endif
 
 struct PatchesPush {
@@ -137,6 +126,4 @@ static_assert(sizeof(PatchWall) == 16 && sizeof(FanTriangle) == 8 && sizeof(Stra
 static_assert(sizeof(PatchStrainPush) == 48 && sizeof(PatchSmoothPush) == 48 && kPatchSteps % 2 == 1);
 }  // namespace vasa::shared
 #endif
-#undef VASA_ADDRESS
-#undef VASA_CONSTANT
 #endif

@@ -4,7 +4,6 @@
 #include "shared/sweep.h"
 #ifdef __cplusplus
 namespace vasa::shared {
-#define VASA_ADDRESS(Block) std::uint64_t
 #endif
 
 /// A vertex at rest and the joints that move it: 40 bytes.
@@ -24,12 +23,9 @@ struct JointRows {
 #ifndef __cplusplus
 #include "lib/words.glsl"
 // In words (lib/words.glsl): SkinVertex, JointRows and TubeVertex.
-layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer SkinVertices { Word word[]; };
-layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Joints { Word2 row[]; };
-layout(buffer_reference, std430, buffer_reference_align = 8) writeonly buffer PosedVertices {
-  Word2 vertex[];
-};
-#define VASA_ADDRESS(Block) Block
+VASA_MEMORY(8) readonly buffer SkinVertices { Word word[]; };
+VASA_MEMORY(8) readonly buffer Joints { Word2 row[]; };
+VASA_MEMORY(8) writeonly buffer PosedVertices { Word2 vertex[]; };
 #endif
 
 struct SkinPush {
@@ -46,5 +42,4 @@ struct SkinPush {
 static_assert(sizeof(SkinVertex) == 40 && sizeof(JointRows) == 48 && sizeof(SkinPush) == 48);
 }  // namespace vasa::shared
 #endif
-#undef VASA_ADDRESS
 #endif

@@ -1,15 +1,9 @@
 // Read by C++ and GLSL (std430): how a network's sweeps lie in memory for tessellation.
 #ifndef VASA_SHARED_SWEEP_H
 #define VASA_SHARED_SWEEP_H
+#include "shared/language.h"
 #ifdef __cplusplus
-#include <cstdint>
-
-#include "math/types.h"
 namespace vasa::shared {
-using uint = std::uint32_t;
-#define VASA_CONSTANT constexpr
-#else
-#define VASA_CONSTANT const
 #endif
 
 /// Fewest and most quads around (m) and along (n) a sweep.
@@ -43,5 +37,4 @@ struct TubeVertex {
 static_assert(sizeof(SweepRecord) == 40 && sizeof(TubeVertex) == 16);
 }  // namespace vasa::shared
 #endif
-#undef VASA_CONSTANT
 #endif

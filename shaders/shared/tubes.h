@@ -9,11 +9,6 @@
 #include "shared/filling.h"
 #ifdef __cplusplus
 namespace vasa::shared {
-#define VASA_CONSTANT constexpr
-#define VASA_ADDRESS(Block) std::uint64_t
-#else
-#define VASA_CONSTANT const
-#define VASA_ADDRESS(Block) Block
 #endif
 
 /// Most sweeps and threads of a workgroup; fewer where so many might not fit into a template.
@@ -46,24 +41,18 @@ struct DrawCommand {
 
 #ifndef __cplusplus
 #include "lib/words.glsl"
-#define VASA_READ layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer
-#define VASA_WRITE layout(buffer_reference, std430, buffer_reference_align = 4) writeonly buffer
 // In words: vec4 and TubeVertex (lib/words.glsl); SweepRecord, TubeTables and DetailView (lib/records.glsl).
-layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Points { Word2 point[]; };
-layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Knots {
-  Word2 knot[];
-};  // x y z w
-layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Sweeps { Word word[]; };
-layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Tables { Word word[]; };
-layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer View { Word word[]; };
-VASA_READ Uints { uint value[]; };
-VASA_WRITE UintsOut { uint value[]; };
-layout(buffer_reference, std430, buffer_reference_align = 4) buffer Sizes { uint size[]; };
-layout(buffer_reference, std430, buffer_reference_align = 8) writeonly buffer Vertices { Word2 vertex[]; };
-VASA_WRITE Draws { DrawCommand draw[]; };
-layout(buffer_reference, std430, buffer_reference_align = 4) buffer RoundDraws { DrawCommand draw[]; };
-#undef VASA_READ
-#undef VASA_WRITE
+VASA_MEMORY(8) readonly buffer Points { Word2 point[]; };
+VASA_MEMORY(8) readonly buffer Knots { Word2 knot[]; };  // x y z w
+VASA_MEMORY(8) readonly buffer Sweeps { Word word[]; };
+VASA_MEMORY(8) readonly buffer Tables { Word word[]; };
+VASA_MEMORY(8) readonly buffer View { Word word[]; };
+VASA_MEMORY(4) readonly buffer Uints { uint value[]; };
+VASA_MEMORY(4) writeonly buffer UintsOut { uint value[]; };
+VASA_MEMORY(4) buffer Sizes { uint size[]; };
+VASA_MEMORY(8) writeonly buffer Vertices { Word2 vertex[]; };
+VASA_MEMORY(4) writeonly buffer Draws { DrawCommand draw[]; };
+VASA_MEMORY(4) buffer RoundDraws { DrawCommand draw[]; };
 #endif
 
 struct MeasurePush {
@@ -122,6 +111,4 @@ static_assert(sizeof(TubeTables) == 64 * 9 + 20 * 17 + 8 * 4 && sizeof(DrawComma
 static_assert(sizeof(MeasurePush) == 64 && sizeof(AroundPush) == 40 && sizeof(TubesPush) == 112);
 }  // namespace vasa::shared
 #endif
-#undef VASA_ADDRESS
-#undef VASA_CONSTANT
 #endif
