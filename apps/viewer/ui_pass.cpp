@@ -6,8 +6,7 @@
 #include <algorithm>
 
 #include "gpu/barrier.h"
-#include "gpu/device.h"
-#include "gpu/error.h"
+#include "gpu/make.h"
 #include "gpu/transfer.h"
 #include "render/picture.h"
 
@@ -70,10 +69,7 @@ void UiPass::makeRenderPass() {
   info.pAttachments = &attachment;
   info.subpassCount = 1;
   info.pSubpasses = &subpass;
-  VkRenderPass pass = VK_NULL_HANDLE;
-  gpu::check(vkCreateRenderPass(device_.handle(), &info, nullptr, &pass), "vkCreateRenderPass");
-  renderPass_ = {device_.handle(), pass};
-  device_.setName(pass, "panels");
+  renderPass_ = gpu::make(device_, vkCreateRenderPass, "vkCreateRenderPass", info, "panels");
 }
 
 void UiPass::makePool() {
@@ -84,9 +80,7 @@ void UiPass::makePool() {
   info.maxSets = 4;
   info.poolSizeCount = 1;
   info.pPoolSizes = &fonts;
-  VkDescriptorPool pool = VK_NULL_HANDLE;
-  gpu::check(vkCreateDescriptorPool(device_.handle(), &info, nullptr, &pool), "vkCreateDescriptorPool");
-  pool_ = {device_.handle(), pool};
+  pool_ = gpu::make(device_, vkCreateDescriptorPool, "vkCreateDescriptorPool", info, "panels");
 }
 
 void UiPass::resize(VkExtent2D size) {
@@ -108,9 +102,7 @@ void UiPass::resize(VkExtent2D size) {
   info.width = size.width;
   info.height = size.height;
   info.layers = 1;
-  VkFramebuffer frame = VK_NULL_HANDLE;
-  gpu::check(vkCreateFramebuffer(device_.handle(), &info, nullptr, &frame), "vkCreateFramebuffer");
-  frame_ = {device_.handle(), frame};
+  frame_ = gpu::make(device_, vkCreateFramebuffer, "vkCreateFramebuffer", info, "panels");
 }
 
 void UiPass::recordPicture(VkCommandBuffer commands, const gpu::Image* picture, std::uint32_t left,

@@ -3,7 +3,7 @@
 #include "gpu/buffer.h"
 #include "gpu/image.h"
 #include "gpu/queue.h"
-#include "gpu/window_handles.h"
+#include "gpu/unique.h"
 #include "viewer/ui_changes.h"
 
 struct ImDrawData;

@@ -16,24 +16,20 @@ std::string versionText(std::uint32_t version) {
          "." + std::to_string(VK_API_VERSION_PATCH(version));
 }
 
-int preference(VkPhysicalDeviceType type) {
-  switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
-      return 0;
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
-      return 1;
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
-      return 2;
-    case VK_PHYSICAL_DEVICE_TYPE_CPU:
-      return 3;
-    default:
-      return 4;
-  }
+// The better ones first.
+constexpr std::pair<VkPhysicalDeviceType, const char*> kTypes[] = {
+    {VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU, "discrete"},
+    {VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU, "integrated"},
+    {VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU, "virtual"},
+    {VK_PHYSICAL_DEVICE_TYPE_CPU, "cpu"}};
+
+std::size_t placeOf(VkPhysicalDeviceType type) {
+  return std::size_t(std::ranges::find(kTypes, type, [](const auto& own) { return own.first; }) - kTypes);
 }
 
 bool isBetter(const Adapter& a, const Adapter& b) {
   if (a.usable() != b.usable()) return a.usable();
-  return preference(a.type) < preference(b.type);
+  return placeOf(a.type) < placeOf(b.type);
 }
 
 void readDriver(VkPhysicalDevice device, Adapter& adapter) {
@@ -63,15 +59,13 @@ VkDeviceSize largestHeap(VkPhysicalDevice device) {
 // One family that does everything keeps the queue ownership of every buffer trivial; all desktop drivers and
 // lavapipe have one.
 bool findQueueFamily(VkPhysicalDevice device, std::uint32_t& found) {
-  std::uint32_t count = 0;
-  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
-  std::vector<VkQueueFamilyProperties> families(count);
-  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
   constexpr VkQueueFlags needed = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-  for (found = 0; found < count; ++found)
-    if ((families[found].queueFlags & needed) == needed) return true;
-  found = 0;
-  return false;
+  const auto families = queueFamilies(device);
+  const auto family = std::ranges::find_if(
+      families, [](const VkQueueFamilyProperties& own) { return (own.queueFlags & needed) == needed; });
+  if (family == families.end()) return false;
+  found = std::uint32_t(family - families.begin());
+  return true;
 }
 
 bool drawsTo(VkPhysicalDevice device, VkFormat format, VkFormatFeatureFlags use) {
@@ -102,18 +96,16 @@ std::string listText(std::span<const Adapter> adapters) {
 }  // namespace
 
 const char* typeName(VkPhysicalDeviceType type) {
-  switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
-      return "discrete";
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
-      return "integrated";
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
-      return "virtual";
-    case VK_PHYSICAL_DEVICE_TYPE_CPU:
-      return "cpu";
-    default:
-      return "other";
-  }
+  const std::size_t place = placeOf(type);
+  return place < std::size(kTypes) ? kTypes[place].second : "other";
+}
+
+std::vector<VkQueueFamilyProperties> queueFamilies(VkPhysicalDevice device) {
+  std::uint32_t count = 0;
+  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+  return families;
 }
 
 std::vector<VkPhysicalDevice> physicalDevices(VkInstance instance) {

@@ -35,6 +35,7 @@ const char* typeName(VkPhysicalDeviceType type);
 /// Throws Error (Fault::noDevice) if there is none or the drivers cannot say.
 std::vector<VkPhysicalDevice> physicalDevices(VkInstance instance);
 Adapter describe(VkPhysicalDevice device, std::uint32_t index);
+std::vector<VkQueueFamilyProperties> queueFamilies(VkPhysicalDevice device);
 
 /// The devices of this machine. Makes an instance for the time of the call.
 /// Throws Error (Fault::noDevice) if there is no driver or no device.

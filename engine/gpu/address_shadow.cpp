@@ -5,7 +5,6 @@
 #include <map>
 
 #include "gpu/device.h"
-#include "gpu/error.h"
 #include "gpu/pipeline.h"
 #include "spirv/access_read_comp.h"
 #include "spirv/access_write_comp.h"
@@ -28,21 +27,10 @@ AddressShadow::AddressShadow(Device& device, const ShaderCode& shader) {
   set_ = makeSetLayout(device, "access by address", {&kBinding, 1},
                        VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR);
   layout_ = makePipelineLayout(device, name, VK_SHADER_STAGE_COMPUTE_BIT, 0, {&set_.get(), 1});
-  read_ = makePipeline(spirv::access_read_comp, name + " reads by address");
-  write_ = makePipeline(spirv::access_write_comp, name + " writes by address");
-}
-
-Unique<VkPipeline> AddressShadow::makePipeline(const ShaderCode& code, const std::string& name) {
-  const Unique<VkShaderModule> module = makeShaderModule(*device_, code);
-  VkComputePipelineCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-  info.stage = shaderStage(VK_SHADER_STAGE_COMPUTE_BIT, module.get(), nullptr);
-  info.layout = layout_.get();
-  VkPipeline pipeline = VK_NULL_HANDLE;
-  check(vkCreateComputePipelines(device_->handle(), device_->pipelineCache(), 1, &info, nullptr, &pipeline),
-        "vkCreateComputePipelines");
-  device_->setName(pipeline, name);
-  return {device_->handle(), pipeline};
+  read_ = makeComputePipeline(device, spirv::access_read_comp, layout_.get(), nullptr,
+                              name + " reads by address");
+  write_ = makeComputePipeline(device, spirv::access_write_comp, layout_.get(), nullptr,
+                               name + " writes by address");
 }
 
 void AddressShadow::record(VkCommandBuffer commands, const std::byte* push) const {

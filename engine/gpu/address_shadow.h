@@ -2,7 +2,6 @@
 #include <vulkan/vulkan.h>
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
 #include "gpu/address_map.h"
@@ -37,7 +36,6 @@ class AddressShadow {
  private:
   void touch(VkCommandBuffer commands, const AddressMap::Place& place, bool write) const;
   void orderOwnShadows(VkCommandBuffer commands, const AddressMap::Place& place) const;
-  Unique<VkPipeline> makePipeline(const ShaderCode& code, const std::string& name);
 
   Device* device_ = nullptr;  // nullptr: empty
   std::vector<PushedAddress> addresses_;

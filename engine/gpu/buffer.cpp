@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "gpu/device.h"
-#include "gpu/error.h"
+#include "gpu/make.h"
 
 namespace vasa::gpu {
 namespace {
@@ -32,10 +31,8 @@ Buffer::Buffer(Device& device, const BufferSpec& spec) : bytes_(spec.bytes) {
   info.size = std::max(spec.bytes, kSmallest);
   info.usage = kUsage | spec.moreUsage;
   info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
-  VkBuffer buffer = VK_NULL_HANDLE;
-  check(vkCreateBuffer(device.handle(), &info, nullptr, &buffer), "vkCreateBuffer");
-  buffer_ = {device.handle(), buffer};
-  device.setName(buffer, spec.name);
+  buffer_ = make(device, vkCreateBuffer, "vkCreateBuffer", info, spec.name);
+  const VkBuffer buffer = buffer_.get();
   memory_ = allocate(device, buffer, spec.role, spec.name);
   VkBufferDeviceAddressInfo addressInfo{VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO, nullptr, buffer};
   address_ = vkGetBufferDeviceAddress(device.handle(), &addressInfo);

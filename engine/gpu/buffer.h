@@ -2,8 +2,6 @@
 #include <vulkan/vulkan.h>
 
 #include <cassert>
-#include <cstdint>
-#include <cstring>
 #include <memory>
 #include <span>
 

@@ -13,18 +13,8 @@ ComputePipeline::ComputePipeline(Device& device, const ComputeSpec& spec)
     mostGroups_[axis] = device.limits().maxComputeWorkGroupCount[axis];
   shadow_ = AddressShadow(device, spec.shader);
   layout_ = makePipelineLayout(device, name_, VK_SHADER_STAGE_COMPUTE_BIT, spec.pushBytes, spec.sets);
-  const Unique<VkShaderModule> module = makeShaderModule(device, spec.shader);
   const VkSpecializationInfo constants = spec.constants.info();
-  VkComputePipelineCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-  info.stage = shaderStage(VK_SHADER_STAGE_COMPUTE_BIT, module.get(), &constants);
-  info.layout = layout_.get();
-  VkPipeline pipeline = VK_NULL_HANDLE;
-  const std::string call = "vkCreateComputePipelines of " + name_;
-  check(vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr, &pipeline),
-        call.c_str());
-  pipeline_ = {device.handle(), pipeline};
-  device.setName(pipeline, name_);
+  pipeline_ = makeComputePipeline(device, spec.shader, layout_.get(), &constants, name_);
 }
 
 void ComputePipeline::bind(VkCommandBuffer commands, const void* push, std::uint32_t bytes) const {

@@ -90,11 +90,7 @@ void Device::readProperties() {
   vkGetPhysicalDeviceProperties(physical_, &properties);
   limits_ = properties.limits;
   vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
-  std::uint32_t count = 0;
-  vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, nullptr);
-  std::vector<VkQueueFamilyProperties> families(count);
-  vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, families.data());
-  timestampBits_ = families[adapter_.queueFamily].timestampValidBits;
+  timestampBits_ = queueFamilies(physical_)[adapter_.queueFamily].timestampValidBits;
 }
 
 void Device::create(const DeviceOptions& options) {

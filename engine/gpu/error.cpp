@@ -3,58 +3,36 @@
 namespace vasa::gpu {
 namespace {
 
-const char* knownName(VkResult result) {
-  switch (result) {
-    case VK_SUCCESS:
-      return "VK_SUCCESS";
-    case VK_NOT_READY:
-      return "VK_NOT_READY";
-    case VK_TIMEOUT:
-      return "VK_TIMEOUT";
-    case VK_INCOMPLETE:
-      return "VK_INCOMPLETE";
-    case VK_SUBOPTIMAL_KHR:
-      return "VK_SUBOPTIMAL_KHR";
-    case VK_ERROR_OUT_OF_HOST_MEMORY:
-      return "VK_ERROR_OUT_OF_HOST_MEMORY";
-    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
-      return "VK_ERROR_OUT_OF_DEVICE_MEMORY";
-    case VK_ERROR_INITIALIZATION_FAILED:
-      return "VK_ERROR_INITIALIZATION_FAILED";
-    case VK_ERROR_DEVICE_LOST:
-      return "VK_ERROR_DEVICE_LOST";
-    case VK_ERROR_MEMORY_MAP_FAILED:
-      return "VK_ERROR_MEMORY_MAP_FAILED";
-    case VK_ERROR_LAYER_NOT_PRESENT:
-      return "VK_ERROR_LAYER_NOT_PRESENT";
-    case VK_ERROR_EXTENSION_NOT_PRESENT:
-      return "VK_ERROR_EXTENSION_NOT_PRESENT";
-    case VK_ERROR_FEATURE_NOT_PRESENT:
-      return "VK_ERROR_FEATURE_NOT_PRESENT";
-    case VK_ERROR_INCOMPATIBLE_DRIVER:
-      return "VK_ERROR_INCOMPATIBLE_DRIVER";
-    case VK_ERROR_TOO_MANY_OBJECTS:
-      return "VK_ERROR_TOO_MANY_OBJECTS";
-    case VK_ERROR_FORMAT_NOT_SUPPORTED:
-      return "VK_ERROR_FORMAT_NOT_SUPPORTED";
-    case VK_ERROR_FRAGMENTED_POOL:
-      return "VK_ERROR_FRAGMENTED_POOL";
-    case VK_ERROR_UNKNOWN:
-      return "VK_ERROR_UNKNOWN";
-    case VK_ERROR_OUT_OF_POOL_MEMORY:
-      return "VK_ERROR_OUT_OF_POOL_MEMORY";
-    case VK_ERROR_INVALID_OPAQUE_CAPTURE_ADDRESS:
-      return "VK_ERROR_INVALID_OPAQUE_CAPTURE_ADDRESS";
-    case VK_ERROR_SURFACE_LOST_KHR:
-      return "VK_ERROR_SURFACE_LOST_KHR";
-    case VK_ERROR_OUT_OF_DATE_KHR:
-      return "VK_ERROR_OUT_OF_DATE_KHR";
-    case VK_ERROR_INVALID_SHADER_NV:
-      return "VK_ERROR_INVALID_SHADER_NV";
-    default:
-      return nullptr;
-  }
-}
+struct NamedResult {
+  VkResult result;
+  const char* name;
+};
+#define VASA_RESULT(result) \
+  { result, #result }
+constexpr NamedResult kNamed[] = {VASA_RESULT(VK_SUCCESS),
+                                  VASA_RESULT(VK_NOT_READY),
+                                  VASA_RESULT(VK_TIMEOUT),
+                                  VASA_RESULT(VK_INCOMPLETE),
+                                  VASA_RESULT(VK_SUBOPTIMAL_KHR),
+                                  VASA_RESULT(VK_ERROR_OUT_OF_HOST_MEMORY),
+                                  VASA_RESULT(VK_ERROR_OUT_OF_DEVICE_MEMORY),
+                                  VASA_RESULT(VK_ERROR_INITIALIZATION_FAILED),
+                                  VASA_RESULT(VK_ERROR_DEVICE_LOST),
+                                  VASA_RESULT(VK_ERROR_MEMORY_MAP_FAILED),
+                                  VASA_RESULT(VK_ERROR_LAYER_NOT_PRESENT),
+                                  VASA_RESULT(VK_ERROR_EXTENSION_NOT_PRESENT),
+                                  VASA_RESULT(VK_ERROR_FEATURE_NOT_PRESENT),
+                                  VASA_RESULT(VK_ERROR_INCOMPATIBLE_DRIVER),
+                                  VASA_RESULT(VK_ERROR_TOO_MANY_OBJECTS),
+                                  VASA_RESULT(VK_ERROR_FORMAT_NOT_SUPPORTED),
+                                  VASA_RESULT(VK_ERROR_FRAGMENTED_POOL),
+                                  VASA_RESULT(VK_ERROR_UNKNOWN),
+                                  VASA_RESULT(VK_ERROR_OUT_OF_POOL_MEMORY),
+                                  VASA_RESULT(VK_ERROR_INVALID_OPAQUE_CAPTURE_ADDRESS),
+                                  VASA_RESULT(VK_ERROR_SURFACE_LOST_KHR),
+                                  VASA_RESULT(VK_ERROR_OUT_OF_DATE_KHR),
+                                  VASA_RESULT(VK_ERROR_INVALID_SHADER_NV)};
+#undef VASA_RESULT
 
 const char* remedy(VkResult result) {
   switch (result) {
@@ -74,7 +52,8 @@ const char* remedy(VkResult result) {
 }  // namespace
 
 std::string resultName(VkResult result) {
-  if (const char* name = knownName(result)) return name;
+  for (const NamedResult& known : kNamed)
+    if (known.result == result) return known.name;
   return "VkResult " + std::to_string(int(result));
 }
 

@@ -52,8 +52,6 @@ VkPipelineDepthStencilStateCreateInfo depthOf(const GraphicsSpec& spec) {
 
 // The parts that every pipeline of the engine has alike.
 struct FixedState {
-  VkPipelineVertexInputStateCreateInfo vertexInput{
-      VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO, nullptr, 0, 0, nullptr, 0, nullptr};
   std::array<VkDynamicState, 2> dynamicStates{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
   VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO, nullptr, 0,
                                            std::uint32_t(dynamicStates.size()), dynamicStates.data()};
@@ -73,6 +71,13 @@ GraphicsPipeline::GraphicsPipeline(Device& device, const GraphicsSpec& spec) : p
   const std::array stages{shaderStage(VK_SHADER_STAGE_VERTEX_BIT, vertex.get(), &constants),
                           shaderStage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment.get(), &constants)};
   const FixedState fixed;
+  const VkVertexInputBindingDescription binding{0, spec.vertexBytes, VK_VERTEX_INPUT_RATE_VERTEX};
+  VkPipelineVertexInputStateCreateInfo vertices{};
+  vertices.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
+  vertices.vertexBindingDescriptionCount = spec.attributes.empty() ? 0 : 1;
+  vertices.pVertexBindingDescriptions = &binding;
+  vertices.vertexAttributeDescriptionCount = std::uint32_t(spec.attributes.size());
+  vertices.pVertexAttributeDescriptions = spec.attributes.data();
   VkPipelineInputAssemblyStateCreateInfo assembly{};
   assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
   assembly.topology = spec.topology;
@@ -98,7 +103,7 @@ GraphicsPipeline::GraphicsPipeline(Device& device, const GraphicsSpec& spec) : p
   info.pNext = &rendering;
   info.stageCount = shaded ? 2 : 1;
   info.pStages = stages.data();
-  info.pVertexInputState = spec.vertexInput ? spec.vertexInput : &fixed.vertexInput;
+  info.pVertexInputState = &vertices;
   info.pInputAssemblyState = &assembly;
   info.pViewportState = &fixed.viewport;
   info.pRasterizationState = &raster;

@@ -22,8 +22,9 @@ struct GraphicsSpec {
   std::uint32_t pushBytes = 0;  ///< one block that both stages see
   Specialization constants;     ///< for both stages
   std::span<const VkDescriptorSetLayout> sets;
-  /// nullptr: the vertex shader fetches vertices by address and gl_VertexIndex.
-  const VkPipelineVertexInputStateCreateInfo* vertexInput = nullptr;
+  std::uint32_t vertexBytes = 0;  ///< of one vertex
+  /// Of a vertex; none: the vertex shader fetches vertices by address and gl_VertexIndex.
+  std::span<const VkVertexInputAttributeDescription> attributes;
 
   VkFormat colour = VK_FORMAT_R8G8B8A8_SRGB;
   VkFormat depth = VK_FORMAT_D32_SFLOAT;  ///< VK_FORMAT_UNDEFINED: none

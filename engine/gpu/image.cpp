@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "gpu/device.h"
-#include "gpu/error.h"
+#include "gpu/make.h"
 
 namespace vasa::gpu {
 
@@ -26,11 +25,8 @@ Image::Image(Device& device, const ImageSpec& spec) : size_(spec.size), format_(
   info.usage = spec.usage;
   info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
   info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
-  VkImage image = VK_NULL_HANDLE;
-  check(vkCreateImage(device.handle(), &info, nullptr, &image), "vkCreateImage");
-  image_ = {device.handle(), image};
-  device.setName(image, spec.name);
-  memory_ = allocate(device, image, spec.name);
+  image_ = make(device, vkCreateImage, "vkCreateImage", info, spec.name);
+  memory_ = allocate(device, handle(), spec.name);
   makeView(device, spec.name);
   settled_ = Settled(device.queue());
 }
@@ -42,10 +38,7 @@ void Image::makeView(Device& device, const char* name) {
   info.viewType = VK_IMAGE_VIEW_TYPE_2D;
   info.format = format_;
   info.subresourceRange = {aspect(), 0, 1, 0, 1};
-  VkImageView view = VK_NULL_HANDLE;
-  check(vkCreateImageView(device.handle(), &info, nullptr, &view), "vkCreateImageView");
-  view_ = {device.handle(), view};
-  device.setName(view, name);
+  view_ = make(device, vkCreateImageView, "vkCreateImageView", info, name);
 }
 
 VkImageAspectFlags Image::aspect() const {
@@ -62,6 +55,18 @@ VkRenderingAttachmentInfo attachment(const Image& image, VkImageLayout layout, V
   info.loadOp = load;
   info.storeOp = store;
   return info;
+}
+
+void beginRendering(VkCommandBuffer commands, VkExtent2D size, const VkRenderingAttachmentInfo* colour,
+                    const VkRenderingAttachmentInfo* depth) {
+  VkRenderingInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
+  info.renderArea.extent = size;
+  info.layerCount = 1;
+  info.colorAttachmentCount = colour ? 1 : 0;
+  info.pColorAttachments = colour;
+  info.pDepthAttachment = depth;
+  vkCmdBeginRendering(commands, &info);
 }
 
 }  // namespace vasa::gpu

@@ -46,5 +46,8 @@ class Image {
 /// An image of dynamic rendering; clear value and resolving are the caller's.
 VkRenderingAttachmentInfo attachment(const Image& image, VkImageLayout layout, VkAttachmentLoadOp load,
                                      VkAttachmentStoreOp store);
+/// Begins dynamic rendering to whole images of a size. @param colour, depth  nullptr: none
+void beginRendering(VkCommandBuffer commands, VkExtent2D size, const VkRenderingAttachmentInfo* colour,
+                    const VkRenderingAttachmentInfo* depth);
 
 }  // namespace vasa::gpu

@@ -1,7 +1,6 @@
 #include "gpu/image_set.h"
 
-#include "gpu/device.h"
-#include "gpu/error.h"
+#include "gpu/make.h"
 #include "gpu/pipeline.h"
 #include "gpu/target.h"
 
@@ -22,10 +21,7 @@ Unique<VkDescriptorPool> makePool(Device& device, const char* name, std::uint32_
   info.maxSets = 1;
   info.poolSizeCount = 1;
   info.pPoolSizes = &size;
-  VkDescriptorPool pool = VK_NULL_HANDLE;
-  check(vkCreateDescriptorPool(device.handle(), &info, nullptr, &pool), "vkCreateDescriptorPool");
-  device.setName(pool, name);
-  return {device.handle(), pool};
+  return make(device, vkCreateDescriptorPool, "vkCreateDescriptorPool", info, name);
 }
 
 }  // namespace

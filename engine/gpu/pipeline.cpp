@@ -2,8 +2,7 @@
 
 #include <string>
 
-#include "gpu/device.h"
-#include "gpu/error.h"
+#include "gpu/make.h"
 
 namespace vasa::gpu {
 
@@ -25,11 +24,8 @@ Unique<VkShaderModule> makeShaderModule(Device& device, const ShaderCode& code) 
       device.features().core.features.shaderInt64 && !code.int64Words.empty() ? code.int64Words : code.words;
   info.codeSize = words.size_bytes();
   info.pCode = words.data();
-  VkShaderModule module = VK_NULL_HANDLE;
   const std::string call = "vkCreateShaderModule of " + std::string(code.name);
-  check(vkCreateShaderModule(device.handle(), &info, nullptr, &module), call.c_str());
-  device.setName(module, code.name);
-  return {device.handle(), module};
+  return make(device, vkCreateShaderModule, call.c_str(), info, code.name);
 }
 
 VkPipelineShaderStageCreateInfo shaderStage(VkShaderStageFlagBits stage, VkShaderModule module,
@@ -51,10 +47,7 @@ Unique<VkDescriptorSetLayout> makeSetLayout(Device& device, const char* name,
   info.flags = flags;
   info.bindingCount = std::uint32_t(bindings.size());
   info.pBindings = bindings.data();
-  VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-  check(vkCreateDescriptorSetLayout(device.handle(), &info, nullptr, &layout), "vkCreateDescriptorSetLayout");
-  device.setName(layout, name);
-  return {device.handle(), layout};
+  return make(device, vkCreateDescriptorSetLayout, "vkCreateDescriptorSetLayout", info, name);
 }
 
 Unique<VkPipelineLayout> makePipelineLayout(Device& device, std::string_view name, VkShaderStageFlags stages,
@@ -72,10 +65,22 @@ Unique<VkPipelineLayout> makePipelineLayout(Device& device, std::string_view nam
   info.pSetLayouts = sets.data();
   info.pushConstantRangeCount = pushBytes ? 1 : 0;
   info.pPushConstantRanges = &range;
-  VkPipelineLayout layout = VK_NULL_HANDLE;
-  check(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout), "vkCreatePipelineLayout");
-  device.setName(layout, name);
-  return {device.handle(), layout};
+  return make(device, vkCreatePipelineLayout, "vkCreatePipelineLayout", info, name);
+}
+
+Unique<VkPipeline> makeComputePipeline(Device& device, const ShaderCode& code, VkPipelineLayout layout,
+                                       const VkSpecializationInfo* constants, const std::string& name) {
+  const Unique<VkShaderModule> module = makeShaderModule(device, code);
+  VkComputePipelineCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+  info.stage = shaderStage(VK_SHADER_STAGE_COMPUTE_BIT, module.get(), constants);
+  info.layout = layout;
+  VkPipeline pipeline = VK_NULL_HANDLE;
+  const std::string call = "vkCreateComputePipelines of " + name;
+  check(vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr, &pipeline),
+        call.c_str());
+  device.setName(pipeline, name);
+  return {device.handle(), pipeline};
 }
 
 }  // namespace vasa::gpu

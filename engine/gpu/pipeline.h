@@ -1,9 +1,9 @@
 #pragma once
 #include <vulkan/vulkan.h>
 
-#include <bit>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -25,11 +25,6 @@ concept PushConstants = std::is_trivially_copyable_v<T> && sizeof(T) <= kMaxPush
 class Specialization {
  public:
   Specialization& set(std::uint32_t id, std::uint32_t value);
-  Specialization& set(std::uint32_t id, std::int32_t value) { return set(id, std::uint32_t(value)); }
-  Specialization& set(std::uint32_t id, float value) { return set(id, std::bit_cast<std::uint32_t>(value)); }
-  Specialization& set(std::uint32_t id, bool value) {
-    return set(id, std::uint32_t(value ? VK_TRUE : VK_FALSE));
-  }
 
   VkSpecializationInfo info() const;  ///< points into this object
 
@@ -50,5 +45,9 @@ Unique<VkDescriptorSetLayout> makeSetLayout(Device& device, const char* name,
 Unique<VkPipelineLayout> makePipelineLayout(Device& device, std::string_view name, VkShaderStageFlags stages,
                                             std::uint32_t pushBytes,
                                             std::span<const VkDescriptorSetLayout> sets = {});
+
+/// @param constants  nullptr: all are the shader's defaults
+Unique<VkPipeline> makeComputePipeline(Device& device, const ShaderCode& code, VkPipelineLayout layout,
+                                       const VkSpecializationInfo* constants, const std::string& name);
 
 }  // namespace vasa::gpu

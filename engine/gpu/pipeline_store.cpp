@@ -7,7 +7,6 @@
 #include "core/hash.h"
 #include "core/kept.h"
 #include "gpu/error.h"
-#include "gpu/pipeline_key.h"
 
 namespace vasa::gpu {
 namespace {

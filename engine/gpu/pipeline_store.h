@@ -9,6 +9,9 @@
 
 namespace vasa::gpu {
 
+/// What a device's pipeline cache is kept by: vendor, device, driver and what the driver says of its caches.
+std::uint64_t pipelineKey(const VkPhysicalDeviceProperties& properties);
+
 /// Whether bytes are what this driver's vkGetPipelineCacheData gave on this device, by the header that Vulkan
 /// puts before them, and hold anything beyond it: lavapipe and SwiftShader give the header alone.
 bool isCacheOf(std::span<const std::byte> bytes, const VkPhysicalDeviceProperties& properties);

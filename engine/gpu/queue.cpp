@@ -7,8 +7,7 @@
 #include <thread>
 
 #include "gpu/barrier.h"
-#include "gpu/device.h"
-#include "gpu/error.h"
+#include "gpu/make.h"
 
 namespace vasa::gpu {
 namespace {
@@ -46,18 +45,12 @@ Queue::Queue(Device& device, VkQueue queue)
   VkSemaphoreCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
   info.pNext = &type;
-  VkSemaphore semaphore = VK_NULL_HANDLE;
-  check(vkCreateSemaphore(device.handle(), &info, nullptr, &semaphore), "vkCreateSemaphore");
-  timeline_ = {device.handle(), semaphore};
-  device.setName(semaphore, "timeline");
+  timeline_ = make(device, vkCreateSemaphore, "vkCreateSemaphore", info, "timeline");
 }
 
 // Not vkQueueWaitIdle(): with synchronization validation (layer 1.3.239) that can go round for ever inside
 // the layer.
-Queue::~Queue() {
-  settle();
-  retired_.clear();
-}
+Queue::~Queue() { settle(); }
 
 Commands::Slot* Queue::freeSlot() {
   for (auto& slot : slots_)
@@ -67,12 +60,10 @@ Commands::Slot* Queue::freeSlot() {
   poolInfo.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
   poolInfo.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
   poolInfo.queueFamilyIndex = device_.adapter().queueFamily;
-  VkCommandPool pool = VK_NULL_HANDLE;
-  check(vkCreateCommandPool(device_.handle(), &poolInfo, nullptr, &pool), "vkCreateCommandPool");
-  slot->pool = {device_.handle(), pool};
+  slot->pool = make(device_, vkCreateCommandPool, "vkCreateCommandPool", poolInfo, "commands");
   VkCommandBufferAllocateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
-  info.commandPool = pool;
+  info.commandPool = slot->pool.get();
   info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
   info.commandBufferCount = 1;
   check(vkAllocateCommandBuffers(device_.handle(), &info, &slot->buffer), "vkAllocateCommandBuffers");
@@ -81,7 +72,6 @@ Commands::Slot* Queue::freeSlot() {
 }
 
 Commands Queue::begin(const char* name) {
-  dropRetired();
   Commands::Slot* slot = freeSlot();
   check(vkResetCommandPool(device_.handle(), slot->pool.get(), 0), "vkResetCommandPool");
   device_.setName(slot->pool.get(), name);
@@ -146,20 +136,18 @@ VkResult Queue::waitFor(std::uint64_t value) const {
 }
 
 void Queue::wait(Ticket ticket) {
-  if (!immediate_ && ticket.value > finished_) {
-    const VkResult result = waitFor(ticket.value);
-    if (result == VK_SUCCESS) {
-      finished_ = ticket.value;
-    } else {
-      const bool over = drain();
-      check(result, "vkWaitSemaphores");
-      if (!over)
-        throw Error(
-            {Fault::deviceLost,
-             "the Vulkan device does not finish its work; use a smaller picture, or choose another --device"});
-    }
+  if (immediate_ || ticket.value <= finished_) return;
+  const VkResult result = waitFor(ticket.value);
+  if (result == VK_SUCCESS) {
+    finished_ = ticket.value;
+    return;
   }
-  dropRetired();
+  const bool over = drain();
+  check(result, "vkWaitSemaphores");
+  if (!over)
+    throw Error(
+        {Fault::deviceLost,
+         "the Vulkan device does not finish its work; use a smaller picture, or choose another --device"});
 }
 
 void Queue::settle() noexcept {
@@ -187,12 +175,6 @@ bool Queue::drain() noexcept {
   }
   finished_ = submitted_;
   return over;
-}
-
-void Queue::dropRetired() {
-  if (retired_.empty()) return;
-  const std::uint64_t now = reached();
-  while (!retired_.empty() && retired_.front().ticket.value <= now) retired_.pop_front();
 }
 
 }  // namespace vasa::gpu

@@ -2,8 +2,6 @@
 #include <vulkan/vulkan.h>
 
 #include <cstdint>
-#include <deque>
-#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -36,7 +34,7 @@ class Commands {
   Slot* slot_;
 };
 
-/// The device's one queue: command buffers from a growing ring, a timeline of tickets, late destruction.
+/// The device's one queue: command buffers from a growing ring, a timeline of tickets.
 ///
 /// Submits run one after the other: begin() records a barrier against everything submitted before, so
 /// barriers are needed inside a command buffer only (gpu/barrier.h). What the host wrote and flushed before
@@ -67,21 +65,10 @@ class Queue {
   /// that.
   void settle() noexcept;
 
-  /// Destroys `owner` once everything submitted so far is done. Commands still being recorded do not count.
-  template <class Owner>
-  void retire(Owner owner) {
-    retired_.push_back({last(), std::make_shared<Owner>(std::move(owner))});
-  }
-
  private:
-  struct Retired {
-    Ticket ticket;
-    std::shared_ptr<void> owner;
-  };
   VkResult waitFor(std::uint64_t value) const;
   bool drain() noexcept;
   std::uint64_t reached() const;
-  void dropRetired();
   Commands::Slot* freeSlot();
 
   Device& device_;
@@ -91,7 +78,6 @@ class Queue {
   std::uint64_t submitted_ = 0;
   std::uint64_t finished_ = 0;  // known to be done
   std::vector<std::unique_ptr<Commands::Slot>> slots_;
-  std::deque<Retired> retired_;
 };
 
 /// The last member of what owns device memory: when that goes, on an error's way out too, the queue's work

@@ -3,8 +3,7 @@
 #include <algorithm>
 
 #include "gpu/barrier.h"
-#include "gpu/device.h"
-#include "gpu/error.h"
+#include "gpu/make.h"
 
 // A present cannot be waited for, so what it uses is kept until it must be over: a `drawn` semaphore until
 // its image has been acquired again, a replaced chain until the next one is replaced. `acquired_` is free
@@ -92,10 +91,7 @@ void Swapchain::chooseFormat() {
 Unique<VkSemaphore> Swapchain::makeSemaphore(const char* name) const {
   VkSemaphoreCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
-  VkSemaphore semaphore = VK_NULL_HANDLE;
-  check(vkCreateSemaphore(device_.handle(), &info, nullptr, &semaphore), "vkCreateSemaphore");
-  device_.setName(semaphore, name);
-  return {device_.handle(), semaphore};
+  return gpu::make(device_, vkCreateSemaphore, "vkCreateSemaphore", info, name);
 }
 
 bool Swapchain::make(VkExtent2D window) {
@@ -127,12 +123,11 @@ bool Swapchain::make(VkExtent2D window) {
   info.clipped = VK_TRUE;
   info.oldSwapchain = now_.chain.get();
   device_.queue().wait(last_);
-  VkSwapchainKHR chain = VK_NULL_HANDLE;
-  check(vkCreateSwapchainKHR(device_.handle(), &info, nullptr, &chain), "vkCreateSwapchainKHR");
+  auto made = gpu::make(device_, vkCreateSwapchainKHR, "vkCreateSwapchainKHR", info, "window");
+  const VkSwapchainKHR chain = made.get();
   before_ = std::exchange(now_, Images{});
-  now_.chain = {device_.handle(), chain};
+  now_.chain = std::move(made);
   now_.size = size;
-  device_.setName(chain, "window");
   std::uint32_t count = 0;
   check(vkGetSwapchainImagesKHR(device_.handle(), chain, &count, nullptr), "vkGetSwapchainImagesKHR");
   now_.images.resize(count);

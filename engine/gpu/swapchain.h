@@ -5,7 +5,6 @@
 
 #include "gpu/image.h"
 #include "gpu/queue.h"
-#include "gpu/window_handles.h"
 
 namespace vasa::gpu {
 

@@ -65,12 +65,7 @@ void Target::resolveDepth(VkCommandBuffer commands) const {
   depths.resolveMode = VK_RESOLVE_MODE_SAMPLE_ZERO_BIT;
   depths.resolveImageView = readableDepth_.view();
   depths.resolveImageLayout = kDepthWritten;
-  VkRenderingInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
-  info.renderArea.extent = spec_.size;
-  info.layerCount = 1;
-  info.pDepthAttachment = &depths;
-  vkCmdBeginRendering(commands, &info);
+  beginRendering(commands, spec_.size, nullptr, &depths);
   vkCmdEndRendering(commands);
 }
 
@@ -98,14 +93,7 @@ void Target::begin(VkCommandBuffer commands, std::array<float, 4> colour, float 
   }
   VkRenderingAttachmentInfo depths = attachment(depth_, kDepthWritten, load, keep);
   depths.clearValue.depthStencil.depth = depth;
-  VkRenderingInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
-  info.renderArea.extent = spec_.size;
-  info.layerCount = 1;
-  info.colorAttachmentCount = 1;
-  info.pColorAttachments = &colours;
-  info.pDepthAttachment = depth_ ? &depths : nullptr;
-  vkCmdBeginRendering(commands, &info);
+  beginRendering(commands, spec_.size, &colours, depth_ ? &depths : nullptr);
   setViewport(commands);
 }
 

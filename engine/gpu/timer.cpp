@@ -1,8 +1,7 @@
 #include "gpu/timer.h"
 
 #include "gpu/barrier.h"
-#include "gpu/device.h"
-#include "gpu/error.h"
+#include "gpu/make.h"
 
 namespace vasa::gpu {
 namespace {
@@ -24,10 +23,7 @@ GpuTimer::GpuTimer(Device& device, std::uint32_t mostScopes) : device_(device), 
   info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
   info.queryType = VK_QUERY_TYPE_TIMESTAMP;
   info.queryCount = 2 * mostScopes;
-  VkQueryPool pool = VK_NULL_HANDLE;
-  check(vkCreateQueryPool(device.handle(), &info, nullptr, &pool), "vkCreateQueryPool");
-  queries_ = {device.handle(), pool};
-  device.setName(pool, "timer");
+  queries_ = make(device, vkCreateQueryPool, "vkCreateQueryPool", info, "timer");
 }
 
 void GpuTimer::begin(VkCommandBuffer commands) {

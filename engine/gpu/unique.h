@@ -24,12 +24,15 @@ VASA_GPU_HANDLE(VkDescriptorPool, vkDestroyDescriptorPool, VK_OBJECT_TYPE_DESCRI
 VASA_GPU_HANDLE(VkCommandPool, vkDestroyCommandPool, VK_OBJECT_TYPE_COMMAND_POOL)
 VASA_GPU_HANDLE(VkSemaphore, vkDestroySemaphore, VK_OBJECT_TYPE_SEMAPHORE)
 VASA_GPU_HANDLE(VkQueryPool, vkDestroyQueryPool, VK_OBJECT_TYPE_QUERY_POOL)
+VASA_GPU_HANDLE(VkSwapchainKHR, vkDestroySwapchainKHR, VK_OBJECT_TYPE_SWAPCHAIN_KHR)
+VASA_GPU_HANDLE(VkRenderPass, vkDestroyRenderPass, VK_OBJECT_TYPE_RENDER_PASS)
+VASA_GPU_HANDLE(VkFramebuffer, vkDestroyFramebuffer, VK_OBJECT_TYPE_FRAMEBUFFER)
 #undef VASA_GPU_HANDLE
 
 constexpr VkObjectType objectType(VkCommandBuffer) { return VK_OBJECT_TYPE_COMMAND_BUFFER; }
 
-/// The owner of one handle that belongs to a VkDevice. Move-only. Destroys at once: keep it, or hand it to
-/// Queue::retire(), until the device has finished with it.
+/// The owner of one handle that belongs to a VkDevice. Move-only. Destroys at once: keep it
+/// until the device has finished with it.
 template <class Handle>
 class Unique {
  public:

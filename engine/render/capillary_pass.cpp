@@ -23,20 +23,10 @@ std::size_t edgesIndex(std::uint32_t edges) {
   return std::size_t(found - kEdges.begin());
 }
 
-struct RibbonLayout {
-  VkVertexInputBindingDescription binding{0, sizeof(shared::CapillaryVertex), VK_VERTEX_INPUT_RATE_VERTEX};
-  std::array<VkVertexInputAttributeDescription, 3> attributes{{
-      {0, 0, VK_FORMAT_R32G32B32A32_SFLOAT, 0},
-      {1, 0, VK_FORMAT_R8G8B8A8_UNORM, offsetof(shared::CapillaryVertex, colour)},
-      {2, 0, VK_FORMAT_R16G16_SNORM, offsetof(shared::CapillaryVertex, across)},
-  }};
-  VkPipelineVertexInputStateCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
-                                            nullptr,
-                                            0,
-                                            1,
-                                            &binding,
-                                            std::uint32_t(attributes.size()),
-                                            attributes.data()};
+constexpr VkVertexInputAttributeDescription kRibbonVertex[] = {
+    {0, 0, VK_FORMAT_R32G32B32A32_SFLOAT, 0},
+    {1, 0, VK_FORMAT_R8G8B8A8_UNORM, offsetof(shared::CapillaryVertex, colour)},
+    {2, 0, VK_FORMAT_R16G16_SNORM, offsetof(shared::CapillaryVertex, across)},
 };
 
 gpu::Buffer ringBuffer(gpu::Device& device) {
@@ -91,12 +81,12 @@ CapillaryPass::CapillaryPass(gpu::Device& device, const gpu::TargetSpec& target,
 const gpu::GraphicsPipeline& CapillaryPass::pipelineFor(LookStyle style, bool partial) const {
   auto& made = draw_[std::size_t(style)][partial];
   if (made) return *made;
-  const RibbonLayout layout;
   gpu::GraphicsSpec spec{.name = "capillaries",
                          .vertex = spirv::capillary_vert,
                          .fragment = spirv::capillary_frag,
                          .pushBytes = sizeof(shared::DrawPush),
-                         .vertexInput = &layout.info,
+                         .vertexBytes = sizeof(shared::CapillaryVertex),
+                         .attributes = kRibbonVertex,
                          .colour = target_.colour,
                          .depth = target_.depth,
                          .samples = target_.samples,

@@ -19,7 +19,7 @@ shared::GrowthView growthView(const Camera& camera, VkExtent2D size, std::uint32
 
 /// Grows capillaries on the device and draws them, a batch after another through two fixed rings of vertices:
 /// the memory does not depend on how many there are. The device must outlive this. CPU reference:
-/// growth/capillary.h and ribbon.h.
+/// growth/capillary.h and tests/reference/ribbon.h.
 class CapillaryPass {
  public:
   /// @param wish  levels are the most that record() may be asked for, budget the most curves; 0 levels: takes

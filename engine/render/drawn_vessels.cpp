@@ -91,16 +91,16 @@ void DrawnVessels::recordStart(VkCommandBuffer commands, const Frame& frame,
 void DrawnVessels::recordFill(VkCommandBuffer commands, const Frame& frame, std::uint32_t round) const {
   const Template& into = templateOf(round);
   const FrameUpload& upload = frame.upload;
+  const TubePass::Input input{tubes_,   detailPass_, upload.points(), upload.knots(),
+                              filling_, into,        frame.cull};
   {
     const auto scope = frame.timer.scope(commands, stage::kTessellate);
-    tubePass_.record(commands,
-                     {tubes_, detailPass_, upload.points(), upload.knots(), filling_, into, frame.cull});
+    tubePass_.record(commands, input);
     gpu::stageBarrier(commands, gpu::kCompute, gpu::kCompute);
   }
   const auto scope = frame.timer.scope(commands, stage::kForks);
   if (range_.forkEnd > 0) {
-    forkPass_.record(
-        commands, {tubes_, forks_, detailPass_, upload.points(), upload.knots(), filling_, into, frame.cull});
+    forkPass_.record(commands, input, forks_);
     gpu::stageBarrier(commands, gpu::kCompute, gpu::kCompute);
   }
   planPass_.record(commands, filling_, into);

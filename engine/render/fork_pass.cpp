@@ -37,8 +37,7 @@ std::future<void> ForkPass::compile(const gpu::Adapter& adapter, std::uint32_t g
   });
 }
 
-void ForkPass::record(VkCommandBuffer commands, const Input& input) const {
-  const ForkSet& forks = input.forks;
+void ForkPass::record(VkCommandBuffer commands, const TubePass::Input& input, const ForkSet& forks) const {
   const shared::FillRoom& room = input.filling.room();
   pipeline_.dispatchIndirect(commands,
                              shared::ForksPush{.points = input.points,

@@ -8,7 +8,7 @@
 namespace vasa {
 
 /// Turns forks into triangles between the tubes' rings, and leaves out those that cannot be seen.
-/// CPU references: surface/fork.h, surface/fork_template.h, surface/visible.h.
+/// CPU references: surface/fork.h, surface/fork_template.h, tests/reference/visible.h.
 class ForkPass {
  public:
   ForkPass() = default;
@@ -23,17 +23,10 @@ class ForkPass {
   ///   the pass is used. No one has to wait for it (core/unawaited.h)
   static std::future<void> compile(const gpu::Adapter& adapter, std::uint32_t groupForks);
 
-  struct Input {
-    const TubeSet& tubes;  ///< of the same network
-    const ForkSet& forks;
-    const DetailPass& detail;
-    VkDeviceAddress points, knots;  ///< de Boor points (vec4) and knot quaternions (x y z w) of the frame
-    const Filling& filling;
-    const Template& into;
-    bool cull = true;  ///< false: every triangle is drawn
-  };
   /// A round's forks, as far as the tubes before them have left room. No barriers.
-  void record(VkCommandBuffer commands, const Input& input) const;
+  /// @param input  the tubes'
+  /// @param forks  of the same network
+  void record(VkCommandBuffer commands, const TubePass::Input& input, const ForkSet& forks) const;
 
  private:
   gpu::ComputePipeline pipeline_;

@@ -1,7 +1,5 @@
 #include "render/fork_set.h"
 
-#include <algorithm>
-
 #include "gpu/transfer.h"
 #include "surface/fork_template.h"
 

@@ -1,7 +1,8 @@
 #include "render/look.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "render/picture.h"
 
 namespace vasa {
 
@@ -11,17 +12,26 @@ bool anyTranslucent(const Look& look) {
 }
 
 bool draws(const Look& look, VesselKind kind) {
-  switch (kind) {
-    case VesselKind::artery:
-      return look.drawArteries;
-    case VesselKind::vein:
-    case VesselKind::portalVein:
-      return look.drawVeins;
-    case VesselKind::lymphatic:
-    case VesselKind::other:
+  if (kind == VesselKind::artery) return look.drawArteries;
+  const bool isVein = kind == VesselKind::vein || kind == VesselKind::portalVein;
+  return isVein ? look.drawVeins : look.drawOtherVessels;
+}
+
+float opacityOf(MeshRole role, const Look& look) {
+  switch (role) {
+    case MeshRole::bones:
+      return look.drawBones ? look.boneOpacity : 0;
+    case MeshRole::heart:
+      return look.drawHeart ? look.heartOpacity : 0;
+    case MeshRole::skin:
+      return look.drawSkin ? look.skinOpacity : 0;
+    case MeshRole::organs:
+    case MeshRole::other:
+      return look.drawOther ? look.otherOpacity : 0;
+    case MeshRole::keepOut:
       break;
   }
-  return look.drawOtherVessels;
+  return 0;
 }
 
 std::optional<Look> lookNamed(std::string_view name) {
@@ -42,45 +52,26 @@ std::optional<Look> lookNamed(std::string_view name) {
 }
 
 vec4 colourOf(VesselKind kind) {
-  switch (kind) {
-    case VesselKind::artery:
-      return {0.80f, 0.13f, 0.12f, 1};
-    case VesselKind::vein:
-      return {0.16f, 0.30f, 0.68f, 1};
-    case VesselKind::portalVein:
-      return {0.46f, 0.24f, 0.62f, 1};
-    case VesselKind::lymphatic:
-      return {0.36f, 0.60f, 0.32f, 1};
-    case VesselKind::other:
-      break;
-  }
-  return {0.62f, 0.62f, 0.62f, 1};
+  constexpr vec4 kColours[] = {{0.80f, 0.13f, 0.12f, 1},   // artery
+                               {0.16f, 0.30f, 0.68f, 1},   // vein
+                               {0.46f, 0.24f, 0.62f, 1},   // portal vein
+                               {0.36f, 0.60f, 0.32f, 1},   // lymphatic
+                               {0.62f, 0.62f, 0.62f, 1}};  // other
+  return kColours[int(kind)];
 }
 
 vec4 colourOf(MeshRole role) {
-  switch (role) {
-    case MeshRole::bones:
-      return {0.93f, 0.86f, 0.71f, 1};
-    case MeshRole::heart:
-      return {0.70f, 0.42f, 0.38f, 1};
-    case MeshRole::skin:
-      return {0.86f, 0.60f, 0.48f, 1};
-    case MeshRole::organs:
-      return {0.84f, 0.66f, 0.62f, 1};
-    case MeshRole::other:
-    case MeshRole::keepOut:
-      break;
-  }
-  return {0.78f, 0.70f, 0.66f, 1};
+  constexpr vec4 kOther{0.78f, 0.70f, 0.66f, 1};
+  constexpr vec4 kColours[] = {{0.93f, 0.86f, 0.71f, 1},  // bones
+                               {0.70f, 0.42f, 0.38f, 1},  // heart
+                               {0.86f, 0.60f, 0.48f, 1},  // skin
+                               {0.84f, 0.66f, 0.62f, 1},  // organs
+                               kOther,
+                               kOther};
+  return kColours[int(role)];
 }
 
-vec3 linearColourOf(VesselKind kind) {
-  const vec4 colour = colourOf(kind);
-  const auto linear = [](float c) {
-    return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
-  };
-  return {linear(colour.x), linear(colour.y), linear(colour.z)};
-}
+vec3 linearColourOf(VesselKind kind) { return vec3(linearColour(colourOf(kind))); }
 
 std::uint32_t packColour(vec4 colour) {
   std::uint32_t packed = 0;

@@ -42,6 +42,9 @@ bool anyTranslucent(const Look& look);
 /// Whether vessels of a kind are drawn.
 bool draws(const Look& look, VesselKind kind);
 
+/// With which meshes of a role are drawn; 0: not at all. Organs have opacities of their own besides.
+float opacityOf(MeshRole role, const Look& look);
+
 /// The presets "atlas", "clinical" and "xray": style, background, skin and occlusion.
 std::optional<Look> lookNamed(std::string_view name);
 

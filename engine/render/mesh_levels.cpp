@@ -98,8 +98,7 @@ MeshLevel levelOf(const SkinnedMesh& mesh, const std::vector<uvec3>& triangles, 
   Checkpoints checkpoints;
   for (const uvec3& t : triangles) {
     checkpoints.pass();
-    const vec3 a = mesh.mesh.positions[t.x], b = mesh.mesh.positions[t.y], c = mesh.mesh.positions[t.z];
-    const vec3 area = glm::cross(b - a, c - a);
+    const vec3 area = mesh.mesh.areaNormal(t);
     const float size = glm::length(area);
     uvec3 own;
     for (int k = 0; k < 3; ++k) {

@@ -41,23 +41,6 @@ std::uint32_t meshColour(const SkinnedMesh& mesh, MeshRole role) {
   return packColour(vec4(vec3(colour), 0)) | (shared::kMeshKind + std::uint32_t(role)) << 24;
 }
 
-bool shown(MeshRole role, const Look& look) {
-  switch (role) {
-    case MeshRole::bones:
-      return look.drawBones && look.boneOpacity > 0;
-    case MeshRole::heart:
-      return look.drawHeart && look.heartOpacity > 0;
-    case MeshRole::skin:
-      return look.drawSkin && look.skinOpacity > 0;
-    case MeshRole::organs:
-    case MeshRole::other:
-      return look.drawOther && look.otherOpacity > 0;
-    case MeshRole::keepOut:
-      break;
-  }
-  return false;
-}
-
 }  // namespace
 
 MeshSet::MeshSet(gpu::Device& device, std::span<const SkinnedMesh> meshes, const BodyLevels& levels)
@@ -124,7 +107,7 @@ void MeshSet::levelsFor(const Look& look, std::span<const mat4> jointMatrices, c
                         std::uint32_t pictureHeight, float pixels, std::vector<Level>& chosen) const {
   chosen.clear();
   for (const Part& part : rest_->parts) {
-    if (!shown(part.role, look)) {
+    if (opacityOf(part.role, look) <= 0) {
       chosen.emplace_back();
       continue;
     }

@@ -26,8 +26,6 @@ class PatchSet {
   /// Empty without patches.
   const PatchDraws& draws() const { return draws_; }
   std::uint32_t groups() const { return groups_; }
-  /// Indices of all triangles, seen or not: those of PatchTable, then the strips' (PatchSeam::index).
-  const gpu::Buffer& allIndices() const { return all_; }
   /// Waits for the device. @param spanColours  one a span of the network, kind in the highest 8 bits
   void setSpanColours(gpu::Device& device, std::span<const std::uint32_t> spanColours);
 
@@ -43,7 +41,7 @@ class PatchSet {
 
 /// Carries patches by the rings of their vessels, smooths those that these press together, closes the surface
 /// between them, and leaves out triangles that cannot be seen. CPU references: surface/patch.h,
-/// surface/patch_smooth.h, surface/visible.h.
+/// surface/patch_smooth.h, tests/reference/visible.h.
 class PatchPass {
  public:
   explicit PatchPass(gpu::Device& device);

@@ -37,10 +37,11 @@ void StaticTubes::recordVertices(VkCommandBuffer commands, const TubePass& pass,
                                  VkDeviceAddress knots) const {
   for (const Part& part : parts_) {
     part.filling.recordStart(commands, part.range);
+    const TubePass::Input input{tubes_, detail, points, knots, part.filling, part.made, false};
     if (part.range.tubeEnd > 0)
-      pass.record(commands, {tubes_, detail, points, knots, part.filling, part.made, false});
+      pass.record(commands, input);
     else
-      forkPass.record(commands, {tubes_, forks_, detail, points, knots, part.filling, part.made, false});
+      forkPass.record(commands, input, forks_);
     gpu::stageBarrier(commands, gpu::kCompute, gpu::kCompute);
     plan.record(commands, part.filling, part.made);
   }

@@ -1,7 +1,6 @@
 #include "render/surface_pass.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "shared/sweep.h"
@@ -16,19 +15,9 @@ namespace vasa {
 namespace {
 
 // shared::TubeVertex as the fixed-function fetch sees it.
-struct VertexLayout {
-  VkVertexInputBindingDescription binding{0, sizeof(shared::TubeVertex), VK_VERTEX_INPUT_RATE_VERTEX};
-  std::array<VkVertexInputAttributeDescription, 2> attributes{{
-      {0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0},
-      {1, 0, VK_FORMAT_R16G16_SNORM, offsetof(shared::TubeVertex, normal)},
-  }};
-  VkPipelineVertexInputStateCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
-                                            nullptr,
-                                            0,
-                                            1,
-                                            &binding,
-                                            std::uint32_t(attributes.size()),
-                                            attributes.data()};
+constexpr VkVertexInputAttributeDescription kVertex[] = {
+    {0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0},
+    {1, 0, VK_FORMAT_R16G16_SNORM, offsetof(shared::TubeVertex, normal)},
 };
 
 constexpr float kXrayVessels = 1.8f;
@@ -36,36 +25,7 @@ constexpr std::uint32_t kWholePart = 31;  // item shift: a part is one item
 
 // How much light a surface of the x-ray style gathers.
 float xrayLight(MeshRole role) {
-  switch (role) {
-    case MeshRole::bones:
-      return 0.3f;
-    case MeshRole::heart:
-      return 0.5f;
-    case MeshRole::skin:
-      return 0.5f;
-    case MeshRole::organs:
-      return 0.25f;
-    case MeshRole::other:
-    case MeshRole::keepOut:
-      break;
-  }
-  return 0.5f;
-}
-
-float opacityOf(MeshRole role, const Look& look) {
-  switch (role) {
-    case MeshRole::bones:
-      return look.boneOpacity;
-    case MeshRole::heart:
-      return look.heartOpacity;
-    case MeshRole::other:
-      return look.otherOpacity;
-    case MeshRole::organs:  // they and the skin are blended
-    case MeshRole::skin:
-    case MeshRole::keepOut:
-      break;
-  }
-  return 1;
+  return role == MeshRole::bones ? 0.3f : role == MeshRole::organs ? 0.25f : 0.5f;
 }
 
 std::uint32_t shiftAndOpacities(std::uint32_t shift, float first, float second = 1, float third = 1) {
@@ -158,12 +118,12 @@ const SurfacePass::Pipelines& SurfacePass::pipelines(const Look& look, bool part
 
 SurfacePass::Pipelines SurfacePass::make(LookStyle style, bool partial) const {
   Pipelines made;
-  const VertexLayout layout;
   gpu::GraphicsSpec common{
       .vertex = spirv::surface_vert,
       .fragment = partial ? gpu::ShaderCode(spirv::partial_frag) : gpu::ShaderCode(spirv::opaque_frag),
       .pushBytes = sizeof(shared::DrawPush),
-      .vertexInput = &layout.info,
+      .vertexBytes = sizeof(shared::TubeVertex),
+      .attributes = kVertex,
       .colour = target_.colour,
       .depth = target_.depth,
       .samples = target_.samples,
@@ -243,9 +203,8 @@ void SurfacePass::recordTranslucent(VkCommandBuffer commands, shared::DrawPush p
     return levels[a].depth != levels[b].depth ? levels[a].depth > levels[b].depth : a < b;
   });
   for (const std::uint32_t i : parts) {
-    const float opacity =
-        role == MeshRole::skin ? look.skinOpacity : meshes.parts()[i].opacity * look.otherOpacity;
-    push.opacity = opacity * (xray ? xrayLight(role) : 1);
+    const float ofPart = role == MeshRole::skin ? 1 : meshes.parts()[i].opacity;
+    push.opacity = ofPart * opacityOf(role, look) * (xray ? xrayLight(role) : 1);
     if (!xray) drawPart(commands, push, meshes, levels[i], i, own.skinDepth);
     drawPart(commands, push, meshes, levels[i], i, own.skinColour);
   }

@@ -6,7 +6,7 @@
 namespace vasa {
 
 /// Turns sweeps, with their caps, into triangles, and leaves out those that cannot be seen.
-/// CPU references: surface/tessellate.h, surface/visible.h.
+/// CPU references: surface/tessellate.h, tests/reference/visible.h.
 class TubePass {
  public:
   /// @param samples  of the picture: 1 or 4 a pixel

@@ -51,7 +51,7 @@ TEST_CASE("another program's device is used and left as it was") {
       CHECK(device.limits().maxPushConstantsSize >= 128);
       const std::vector<std::uint32_t> sent{1, 2, 3};
       const gpu::Buffer buffer = gpu::makeBuffer(device, "sent", std::span<const std::uint32_t>(sent));
-      CHECK(gpu::download<std::uint32_t>(device, buffer) == sent);
+      CHECK(test::download<std::uint32_t>(device, buffer) == sent);
     }
     CHECK(vkQueueWaitIdle(host.foreign.queue) == VK_SUCCESS);  // still alive
   }

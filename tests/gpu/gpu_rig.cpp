@@ -68,6 +68,16 @@ bool vulkanAvailable() {
   return false;
 }
 
+void downloadBytes(gpu::Device& device, const gpu::Buffer& from, std::span<std::byte> bytes) {
+  if (bytes.empty()) return;
+  const gpu::Buffer staging(device, {"staging", bytes.size(), gpu::MemoryRole::readBack});
+  gpu::Commands commands = device.queue().begin("download");
+  const VkBufferCopy region{0, 0, bytes.size()};
+  vkCmdCopyBuffer(commands, from.handle(), staging.handle(), 1, &region);
+  device.queue().wait(device.queue().submit(std::move(commands)));
+  staging.read(bytes);
+}
+
 GpuRig::GpuRig() : device_(*processDevice().device()), messagesBefore_(device_.validationMessages().size()) {}
 
 GpuRig::~GpuRig() {

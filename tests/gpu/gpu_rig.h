@@ -14,6 +14,15 @@ namespace vasa::test {
 /// leave a missing device fails the test case, and so does a missing validation layer.
 bool vulkanAvailable();
 
+/// Everything that a buffer of any role holds.
+void downloadBytes(gpu::Device& device, const gpu::Buffer& from, std::span<std::byte> bytes);
+template <class T>
+std::vector<T> download(gpu::Device& device, const gpu::Buffer& from) {
+  std::vector<T> values(std::size_t(from.bytes() / sizeof(T)));
+  downloadBytes(device, from, std::as_writable_bytes(std::span(values)));
+  return values;
+}
+
 /// The process's one device with core and synchronization validation, for a test case. Fails the case if the
 /// validation layer said anything while the rig was there. Objects left behind when the process ends fail
 /// the process. VASA_TEST_DEVICE chooses the device as --device does. Mesa's shader cache is a temporary
@@ -33,7 +42,7 @@ class GpuRig {
   }
   template <class T>
   std::vector<T> download(const gpu::Buffer& buffer) const {
-    return gpu::download<T>(device_, buffer);
+    return test::download<T>(device_, buffer);
   }
 
   /// Records with `record(VkCommandBuffer)`, submits and waits.

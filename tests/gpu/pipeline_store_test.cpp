@@ -4,7 +4,6 @@
 
 #include "core/kept.h"
 #include "gpu/gpu_rig.h"
-#include "gpu/pipeline_key.h"
 #include "support/shared_data.h"
 
 using namespace vasa;

@@ -2,24 +2,9 @@
 
 #include <doctest/doctest.h>
 
-#include <memory>
-
 #include "gpu/gpu_rig.h"
 
 using namespace vasa;
-
-namespace {
-
-struct Mark {
-  std::shared_ptr<int> gone;
-  Mark(std::shared_ptr<int> counter) : gone(std::move(counter)) {}
-  Mark(Mark&&) = default;
-  ~Mark() {
-    if (gone) ++*gone;
-  }
-};
-
-}  // namespace
 
 TEST_CASE("tickets follow each other and are done in order") {
   VASA_REQUIRE_GPU(rig);
@@ -85,24 +70,4 @@ TEST_CASE("memory that the device still uses is not freed before it has finished
   ticket = submitFilling(replaced);
   replaced = gpu::Buffer(rig.device(), {"another", 16});
   CHECK(rig.device().queue().done(ticket));
-}
-
-TEST_CASE("what is retired goes when everything submitted before is done") {
-  VASA_REQUIRE_GPU(rig);
-  gpu::Queue& queue = rig.device().queue();
-  const auto gone = std::make_shared<int>(0);
-  const gpu::Ticket ticket = queue.submit(queue.begin("work"));
-  queue.retire(Mark(gone));
-  queue.wait(ticket);
-  CHECK(*gone == 1);
-
-  // A buffer that a submit still uses may be retired at once.
-  gpu::Buffer source = rig.upload(std::vector<std::uint32_t>{5, 6});
-  const gpu::Buffer target(rig.device(), {"target", 8});
-  gpu::Commands copy = queue.begin("copy");
-  const VkBufferCopy region{0, 0, 8};
-  vkCmdCopyBuffer(copy, source.handle(), target.handle(), 1, &region);
-  queue.submit(std::move(copy));
-  queue.retire(std::move(source));
-  CHECK(rig.download<std::uint32_t>(target) == std::vector<std::uint32_t>{5, 6});
 }
