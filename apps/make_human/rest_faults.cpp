@@ -17,7 +17,7 @@ std::vector<VesselId> restFaults(const Network& network) {
   const NetworkTubes layout(network);
   std::vector<Bezier> tubes(layout.count());
   layout.shape(network.points(), tubes);
-  TubeDetector detector(tubes, layout.neighbours().exclusions());
+  TubeDetector detector(tubes, layout.neighbours());
   detector.update(tubes, kMargin);
   std::vector<VesselId> found;
   for (const TubePair& pair : detector.detect()) {

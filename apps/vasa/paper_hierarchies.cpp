@@ -81,7 +81,7 @@ Report boxRow(const Poses& poses, const Resolution& resolution, const char* what
   std::vector<vec3> positions;
   surface.shape(poses.rest, positions);
   const auto start = Clock::now();
-  BoxHierarchy<Box> hierarchy(surface, positions, poses.layout.neighbours().exclusions());
+  BoxHierarchy<Box> hierarchy(surface, positions, poses.layout.neighbours());
   const double build = msSince(start);
   Report ours{{"triangles", std::size_t(surface.trianglesPerTube()) * poses.rest.size()},
               {"bytes", hierarchy.bytes()},
@@ -121,7 +121,7 @@ class OneThread {
 Result<Report> hierarchyTable(const PaperStudy& study) {
   const Poses poses = makePoses(study);
   const OneThread alone;
-  const Exclusions& exclusions = poses.layout.neighbours().exclusions();
+  const Exclusions& exclusions = poses.layout.neighbours();
   Report rows = Report::array();
   for (const Resolution& resolution : kResolutions) {
     for (const bool oriented : {false, true}) {

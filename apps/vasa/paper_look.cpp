@@ -33,12 +33,12 @@ PaperLook::PaperLook(const Network& network)
     : layout_(network),
       rest_(shapeOf(layout_, network.points())),
       tubes_(rest_),
-      paper_(rest_, layout_.neighbours().exclusions(), kPaperTolerance * network.bodyHeight()) {}
+      paper_(rest_, layout_.neighbours(), kPaperTolerance * network.bodyHeight()) {}
 
 PaperLook::Pairs PaperLook::at(std::span<const vec4> points) {
   layout_.shape(points, tubes_);
   // A new one: it knows of nothing that stayed.
-  TubeDetector detector(rest_, layout_.neighbours().exclusions());
+  TubeDetector detector(rest_, layout_.neighbours());
   const auto [exact, exactMs] = timed(detector, tubes_);
   const auto [paper, paperMs] = timed(paper_, tubes_);
   return {exact.size(), paper.size(), countOnlyInFirst(paper, exact), countOnlyInFirst(exact, paper),

@@ -69,7 +69,7 @@ float bend(const Bezier& tube) {
 // The pair that shows most, of those that meet, or that come within 5 mm where none do.
 std::optional<TubePair> choosePair(const Shape& shape) {
   constexpr float kNear = 0.005f;  // [m]
-  TubeDetector detector(shape.tubes, shape.layout.neighbours().exclusions());
+  TubeDetector detector(shape.tubes, shape.layout.neighbours());
   std::optional<TubePair> best;
   for (const float margin : {0.0f, kNear}) {
     detector.update(shape.tubes, margin);

@@ -13,7 +13,7 @@ Interference::Interference(const Network& network)
     : layout_(network), rest_(layout_.count()), tubes_(layout_.count()) {
   layout_.shape(network.points(), rest_);
   tubes_ = rest_;
-  detector_ = std::make_unique<TubeDetector>(rest_, layout_.neighbours().exclusions());
+  detector_ = std::make_unique<TubeDetector>(rest_, layout_.neighbours());
   detector_->update(rest_, 0);
   if (!detector_->detect().empty())
     for (const Contact& contact : detector_->contacts())

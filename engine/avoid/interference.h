@@ -43,7 +43,7 @@ class Interference {
   std::span<const Bezier> restTubes() const { return rest_; }
   /// Pairs that overlap at rest, and pairs that are left out as neighbours.
   std::size_t restPairCount() const { return restPairs_.size(); }
-  std::size_t neighbourCount() const { return layout_.neighbours().pairs().size(); }
+  std::size_t neighbourCount() const { return layout_.neighbours().pairCount(); }
   /// Pairs that lay near one another at rest: no further apart than the sum of their radii, nor 5 mm. With
   /// the places where they came nearest, sorted by pair. Ends what find() has returned.
   std::vector<Contact> findNearAtRest();

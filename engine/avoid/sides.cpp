@@ -105,7 +105,7 @@ std::optional<Contact> RestSides::nearestAlong(const Contact& rest, std::span<co
     Contact next = now;
     const bool left = follow(next.i, next.s), right = follow(next.j, next.t);
     if (!left && !right) return now;
-    if (interference_->layout().neighbours().find({next.i, next.j})) return std::nullopt;
+    if (interference_->layout().neighbours().contains(next.i, next.j)) return std::nullopt;
     const Contact there = nearestPlaceFrom(shape[next.i], shape[next.j], next.s, next.t);
     if (there.f >= now.f - kNearer) return now;
     now.i = next.i, now.j = next.j, now.s = there.s, now.t = there.t;

@@ -1,7 +1,5 @@
 #include "collide/kernels.h"
 
-#include <limits>
-
 // Highway includes this file again for every instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "collide/kernels.cpp"

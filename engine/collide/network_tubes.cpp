@@ -11,8 +11,8 @@
 // whose edges are the stretches from each place of a span to the next along it, as long as the arc (from each
 // to every other they would grow with the square of the branches that leave one span). A node's ends are one
 // place. From the places of each tube a shortest-path search runs as far as it and tubes no wider than it may
-// reach; each of these that has a place within reach is linked. So many narrow tubes cost no more for a wide
-// one somewhere.
+// reach; each of these that has a place within reach is a neighbour. So many narrow tubes cost no more for a
+// wide one somewhere.
 namespace vasa {
 namespace {
 
@@ -66,27 +66,24 @@ Graph buildGraph(const Network& network, const NetworkTubes& tubes) {
   return graph;
 }
 
-// All links of one tube to tubes that are narrower, or as wide and of a lower number.
-class LinkSearch {
+// The neighbours of one tube that are narrower, or as wide and of a lower number.
+class NeighbourSearch {
  public:
-  LinkSearch(const Graph& graph, std::span<const Bezier> tubes, std::span<const float> lengths, float reach)
+  NeighbourSearch(const Graph& graph, std::span<const Bezier> tubes, std::span<const float> lengths,
+                  float reach)
       : graph_(graph), lengths_(lengths), reach_(reach), searched_(graph.tubesAt.size(), 0) {
     for (const Bezier& tube : tubes)
       radii_.push_back(std::max(std::max(tube.b[0].w, tube.b[1].w), std::max(tube.b[2].w, tube.b[3].w)));
   }
 
-  void linksOf(std::uint32_t tube, std::vector<TubeLink>& links) {
+  void addTo(std::vector<TubePair>& pairs, std::uint32_t tube) {
     for (const Place& start : graph_.placesOf[tube]) {
       search(start.id, reach_ * 2 * radii_[tube]);
       for (const auto& [gap, place] : settled_)
-        for (const auto& [other, index] : graph_.tubesAt[place]) {
-          const float t = graph_.placesOf[other][index].t;
+        for (const Graph::Visit& visit : graph_.tubesAt[place]) {
+          const std::uint32_t other = visit.tube;
           if (std::tie(radii_[other], other) >= std::tie(radii_[tube], tube)) continue;
-          if (gap >= reach_ * (radii_[tube] + radii_[other])) continue;
-          if (other > tube)
-            links.push_back({tube, other, start.t, t, gap});
-          else
-            links.push_back({other, tube, t, start.t, gap});
+          if (gap < reach_ * (radii_[tube] + radii_[other])) pairs.push_back(orderedPair(tube, other));
         }
     }
   }
@@ -139,10 +136,10 @@ NetworkTubes::NetworkTubes(const Network& network, float reach) {
   std::vector<float> lengths;
   for (const Bezier& tube : tubes) lengths.push_back(arcLength(tube));
   const Graph graph = buildGraph(network, *this);
-  LinkSearch search(graph, tubes, lengths, reach);
-  std::vector<TubeLink> links;
-  for (std::uint32_t tube = 0; tube < count(); ++tube) search.linksOf(tube, links);
-  neighbours_ = Neighbours(lengths, std::move(links), reach);
+  NeighbourSearch search(graph, tubes, lengths, reach);
+  std::vector<TubePair> pairs;
+  for (std::uint32_t tube = 0; tube < count(); ++tube) search.addTo(pairs, tube);
+  neighbours_ = Exclusions(count(), pairs);
 }
 
 void NetworkTubes::shape(std::span<const vec4> points, std::span<Bezier> tubes) const {

@@ -1,5 +1,5 @@
 #pragma once
-#include "collide/neighbours.h"
+#include "collide/exclusions.h"
 #include "network/network.h"
 
 namespace vasa {
@@ -15,12 +15,14 @@ class NetworkTubes {
 
   /// Finds the neighbours at rest: along vessels, across nodes, and from a side branch into its host's spans.
   /// A path counts while it is shorter than `reach` times the sum of the largest radii at its two ends.
+  /// Neighbours belong together and are left out of detection, as whole tubes: where a vessel folds over
+  /// itself so tightly, that is a kink (network/kinks.h).
   explicit NetworkTubes(const Network& network, float reach = 2);
 
   std::uint32_t count() const { return std::uint32_t(addresses_.size()); }
   Address address(std::uint32_t tube) const { return addresses_[tube]; }
   std::uint32_t tube(VesselId vessel, std::uint32_t span) const { return firstTube_[vessel.value] + span; }
-  const Neighbours& neighbours() const { return neighbours_; }
+  const Exclusions& neighbours() const { return neighbours_; }
 
   /// The tubes of the network in the given shape.
   /// @param points  as Network::points()
@@ -34,7 +36,7 @@ class NetworkTubes {
   std::vector<Run> runs_;  // a vessel each
   std::vector<std::uint32_t> firstTube_;
   std::vector<Address> addresses_;
-  Neighbours neighbours_;
+  Exclusions neighbours_{0};
 };
 
 }  // namespace vasa

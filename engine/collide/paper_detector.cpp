@@ -1,7 +1,6 @@
 #include "collide/paper_detector.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "math/segment_distance.h"
 

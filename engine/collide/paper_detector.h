@@ -1,6 +1,4 @@
 #pragma once
-#include <memory>
-
 #include "collide/exclusions.h"
 #include "collide/sphere_tree.h"
 

@@ -1,7 +1,5 @@
 #include "collide/kernels.h"
 
-#include <limits>
-
 // The same code for one lane: what the vectors are held against.
 #define HWY_COMPILE_ONLY_SCALAR
 #include "collide/kernels-inl.h"

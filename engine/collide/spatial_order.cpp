@@ -14,8 +14,7 @@ void sortRun(std::span<const vec3> points, std::span<std::uint32_t> run, std::si
   if (node == 0) return;
   Aabb box;
   for (const std::uint32_t i : run) box.add(points[i]);
-  const vec3 extent = box.extent();
-  const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+  const int axis = box.longestAxis();
   const std::size_t nodes = (run.size() + node - 1) / node;
   const auto middle = run.begin() + std::ptrdiff_t((nodes + 1) / 2 * node);
   if (middle < run.end())

@@ -1,7 +1,6 @@
 #pragma once
 #include <memory>
 #include <span>
-#include <vector>
 
 #include "collide/exclusions.h"
 #include "collide/narrow_phase.h"

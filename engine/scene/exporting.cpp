@@ -118,7 +118,8 @@ Result<Facts> exportStl(const Job& job) {
   });
 }
 
-Result<Facts> exportLines(const Job& job, bool vtp) {
+template <bool vtp>
+Result<Facts> exportLines(const Job& job) {
   const ImportFrame frame{metresOf(job.options.unit), ImportFrame::Up::y};
   FrameMaker maker(job.scene, job.options.frame);
   return exportFrames(job, [&](std::uint32_t number, Facts& facts) -> Result<std::string> {
@@ -168,7 +169,9 @@ Result<Facts> exportTubes(const Job& job) {
     layout.shape(maker.points(), list.poses[pose]);
     job.tell(pose + 1, 2);
   }
-  for (const NeighbourPair& pair : layout.neighbours().pairs()) list.excluded.push_back(pair.tubes);
+  for (std::uint32_t i = 0; i < layout.count(); ++i)
+    for (const std::uint32_t j : layout.neighbours().partnersOf(i))
+      if (i < j) list.excluded.push_back({i, j});
   const auto path = job.fileOf(job.options.first);
   if (auto written = writeTubeList(path, list); !written) return written.error();
   return Facts{{"tubes", std::size_t(layout.count())},
@@ -177,35 +180,29 @@ Result<Facts> exportTubes(const Job& job) {
                {"file_bytes", std::size_t(std::filesystem::file_size(path))}};
 }
 
+struct Format {
+  std::string_view extension;
+  Result<Facts> (*write)(const Job&);
+};
+// By ExportKind.
+constexpr std::array kFormats{
+    Format{".glb", exportGlb},         Format{".obj", exportObj},          Format{".stl", exportStl},
+    Format{".vtp", exportLines<true>}, Format{".swc", exportLines<false>}, Format{".csv", exportMeasurements},
+    Format{".tubes", exportTubes},
+};
+
 }  // namespace
 
 std::optional<ExportKind> exportKindOf(const std::filesystem::path& file) {
-  constexpr std::array kExtensions{".glb", ".obj", ".stl", ".vtp", ".swc", ".csv", ".tubes"};
-  const auto found = std::ranges::find(kExtensions, extensionOf(file));
-  if (found == kExtensions.end()) return std::nullopt;
-  return ExportKind(found - kExtensions.begin());
+  const auto found = std::ranges::find(kFormats, extensionOf(file), &Format::extension);
+  if (found == kFormats.end()) return std::nullopt;
+  return ExportKind(found - kFormats.begin());
 }
 
 Result<std::vector<ExportFact>> exportVessels(
     const Scene& scene, const Clip* clip, ExportKind kind, const ExportOptions& options,
     const std::function<std::filesystem::path(std::uint32_t)>& fileOf) {
-  const Job job{scene, clip, options, fileOf};
-  switch (kind) {
-    case ExportKind::glb:
-      return exportGlb(job);
-    case ExportKind::obj:
-      return exportObj(job);
-    case ExportKind::stl:
-      return exportStl(job);
-    case ExportKind::csv:
-      return exportMeasurements(job);
-    case ExportKind::tubes:
-      return exportTubes(job);
-    case ExportKind::vtp:
-    case ExportKind::swc:
-      break;
-  }
-  return exportLines(job, kind == ExportKind::vtp);
+  return kFormats[std::size_t(kind)].write({scene, clip, options, fileOf});
 }
 
 }  // namespace vasa

@@ -16,7 +16,7 @@ std::size_t overlaps(const Network& network) {
   const NetworkTubes layout(network);
   std::vector<Bezier> tubes(layout.count());
   layout.shape(network.points(), tubes);
-  TubeDetector detector(tubes, layout.neighbours().exclusions());
+  TubeDetector detector(tubes, layout.neighbours());
   detector.update(tubes);
   return detector.detect().size();
 }

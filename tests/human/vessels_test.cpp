@@ -171,7 +171,7 @@ TEST_CASE("at rest no vessel runs through another, but for those that meet at a 
   const NetworkTubes layout(network);
   std::vector<Bezier> tubes(layout.count());
   layout.shape(network.points(), tubes);
-  TubeDetector detector(tubes, layout.neighbours().exclusions());
+  TubeDetector detector(tubes, layout.neighbours());
   detector.update(tubes);
   const std::span<const TubePair> pairs = detector.detect();
   int strangers = 0, relatives = 0;
