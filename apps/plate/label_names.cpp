@@ -42,7 +42,7 @@ std::string withoutSide(std::string_view name) {
 
 // The vessel on whose side an end hangs; empty where it hangs on none.
 std::string hostName(const Network& network, const Vessel& vessel, bool last) {
-  const NodeId id = last ? vessel.end : vessel.start;
+  const NodeId id = vessel.node(last);
   if (!id.valid() || !network.node(id).host) return {};
   return lowerCase(network.vessel(network.node(id).host->vessel).name);
 }

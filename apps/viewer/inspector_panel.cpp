@@ -236,7 +236,7 @@ void showInspectorSection(const PanelInput& in) {
     const Relatives relatives = relativesOf(in.document->scene.network, id);
     showRelatives(in, "comes from", relatives.parents, {});
     showRelatives(in, "gives off", relatives.children,
-                  measureForksOf(in.document->scene.network, in.body->points, id));
+                  measureForks(in.document->scene.network, in.body->points, id));
     if (!in.state.measuring)
       if (const auto way = profileOf(in.state, in.document->scene.network, in.body->points))
         showProfile(in, *way);

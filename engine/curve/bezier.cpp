@@ -19,6 +19,12 @@ vec4 Bezier::secondDerivative(float t) const {
   return 6.0f * ((1 - t) * (b[0] - 2.0f * b[1] + b[2]) + t * (b[1] - 2.0f * b[2] + b[3]));
 }
 
+float Bezier::curvature(float t) const {
+  const vec3 first(derivative(t)), second(secondDerivative(t));
+  const float speed = glm::length(first);
+  return speed > 1e-9f ? glm::length(glm::cross(first, second)) / (speed * speed * speed) : 0;
+}
+
 std::pair<Bezier, Bezier> Bezier::split(float t) const {
   const vec4 p01 = glm::mix(b[0], b[1], t), p12 = glm::mix(b[1], b[2], t), p23 = glm::mix(b[2], b[3], t);
   const vec4 p012 = glm::mix(p01, p12, t), p123 = glm::mix(p12, p23, t);

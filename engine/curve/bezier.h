@@ -13,6 +13,7 @@ struct Bezier {
   vec4 at(float t) const;
   vec4 derivative(float t) const;        ///< d/dt
   vec4 secondDerivative(float t) const;  ///< d²/dt²
+  float curvature(float t) const;        ///< [1/m] of the centre line; 0 where that stands still
   /// The parts before and after t (de Casteljau).
   std::pair<Bezier, Bezier> split(float t) const;
   /// The parameter of the point on the centre line nearest to p: the best of nine samples, then three Newton

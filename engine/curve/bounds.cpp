@@ -33,13 +33,6 @@ float filipRadiusConstant(const Bezier& segment) {
 
 float filipBound(float filipConstant, int level) { return std::ldexp(3 * filipConstant, -2 * (level + 1)); }
 
-float chordDeviation(const Bezier& segment) {
-  const auto& b = segment.b;
-  const vec3 e1 = vec3(b[1]) - (2.0f * vec3(b[0]) + vec3(b[3])) / 3.0f;
-  const vec3 e2 = vec3(b[2]) - (vec3(b[0]) + 2.0f * vec3(b[3])) / 3.0f;
-  return 0.75f * std::max(glm::length(e1), glm::length(e2));
-}
-
 float radiusBound(const Bezier& segment) {
   const auto& b = segment.b;
   return std::max(std::max(b[0].w, b[1].w), std::max(b[2].w, b[3].w));

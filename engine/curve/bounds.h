@@ -15,10 +15,6 @@ float filipRadiusConstant(const Bezier& segment);
 /// ε = 3K / 4^(level + 1) (Filip, Magedson, Markot 1986).
 float filipBound(float filipConstant, int level);
 
-/// Distance within which the curve follows its chord b0 b3 point by point: ¾ max(|b1 - (2 b0 + b3)/3|,
-/// |b2 - (b0 + 2 b3)/3|). Never above filipBound(K, 0), and far below it where the curve is an S.
-float chordDeviation(const Bezier& segment);
-
 /// Largest of the four radius coefficients: no r(t) exceeds it.
 float radiusBound(const Bezier& segment);
 

@@ -152,10 +152,7 @@ void Draft::redraw(VesselId vessel, std::vector<vec4> points, const PlaceMap& ma
         if (!(glm::length(way) > kLeastMove)) continue;
         bendEnd(branch.points, end.last, way);
         branch.touched = true;
-        std::erase_if(patches, [&](const ForkPatch& patch) {
-          return std::ranges::any_of(patch.rings,
-                                     [&](const PatchRing& ring) { return ring.vessel == end.vessel; });
-        });
+        dropPatchesOn(end.vessel);
         next[end.vessel.value] = 1, any = true;
       }
     }
@@ -167,11 +164,15 @@ void Draft::remove(VesselId vessel) {
   for (Joint& joint : joints)
     std::erase_if(joint.ends, [&](const VesselEnd& end) { return end.vessel == vessel; });
   std::erase_if(joints, [&](const Joint& joint) { return joint.host && joint.host->vessel == vessel; });
-  std::erase_if(patches, [&](const ForkPatch& patch) {
-    return std::ranges::any_of(patch.rings, [&](const PatchRing& ring) { return ring.vessel == vessel; });
-  });
+  dropPatchesOn(vessel);
   line(vessel).gone = true;
   dropEmptyJoints();
+}
+
+void Draft::dropPatchesOn(VesselId vessel) {
+  std::erase_if(patches, [&](const ForkPatch& patch) {
+    return std::ranges::find(patch.rings, vessel, &PatchRing::vessel) != patch.rings.end();
+  });
 }
 
 void Draft::dropEmptyJoints() {

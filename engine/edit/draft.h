@@ -66,6 +66,7 @@ struct Draft {
   /// Takes a vessel out of all joints and marks it gone; joints that join nothing any more go too.
   void remove(VesselId vessel);
   void dropEmptyJoints();
+  void dropPatchesOn(VesselId vessel);
 };
 
 /// The end point of a line.

@@ -18,10 +18,14 @@ bool changesTopology(const EditOperation& operation) {
 }
 
 Result<std::string> applyTo(Draft& draft, const EditOperation& operation) {
-  if (!changesTopology(operation))
-    return std::visit([&](const auto& edit) { return apply(edit, draft); }, operation);
+  const auto vessel = draft.find(vesselOf(operation));
+  if (!vessel) return vessel.error();
+  const auto applied = [&](Draft& to) {
+    return std::visit([&](const auto& edit) { return apply(edit, *vessel, to); }, operation);
+  };
+  if (!changesTopology(operation)) return applied(draft);
   Draft changed = draft;
-  auto done = std::visit([&](const auto& edit) { return apply(edit, changed); }, operation);
+  auto done = applied(changed);
   if (!done) return done;
   if (std::ranges::all_of(changed.lines, &Draft::Line::gone)) return badInput("no vessel would be left");
   if (auto built = changed.build(); !built) return built.error();

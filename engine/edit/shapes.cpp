@@ -80,25 +80,8 @@ float holdOfEnds(const Draft& draft, VesselId vessel, float length, float reach,
   return hold;
 }
 
-vec3 axisOf(EditSide side) {
-  switch (side) {
-    case EditSide::left:
-      return {1, 0, 0};
-    case EditSide::right:
-      return {-1, 0, 0};
-    case EditSide::front:
-      return {0, 0, 1};
-    case EditSide::back:
-      return {0, 0, -1};
-    case EditSide::up:
-      return {0, 1, 0};
-    case EditSide::down:
-      return {0, -1, 0};
-    case EditSide::none:
-      break;
-  }
-  return vec3(0);
-}
+// By EditSide.
+constexpr vec3 kAxes[] = {{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 0, 1}, {0, 0, -1}, {0, 1, 0}, {0, -1, 0}};
 
 // The unit direction at right angles to the tangent that is nearest to `wanted`; none where that runs along
 // it.
@@ -149,10 +132,8 @@ Result<std::string> narrow(Draft& draft, VesselId vessel, double at, float lengt
 
 }  // namespace
 
-Result<std::string> apply(const RadiusEdit& edit, Draft& draft) {
-  const auto vessel = draft.find(edit.vessel);
-  if (!vessel) return vessel.error();
-  const Course course(draft.line(*vessel));
+Result<std::string> apply(const RadiusEdit& edit, VesselId vessel, Draft& draft) {
+  const Course course(draft.line(vessel));
   const float length = course.arc.length(), from = course.metres(edit.from), to = course.metres(edit.to);
   const float middle = 0.5f * (from + to), half = 0.5f * (to - from), factor = float(edit.factor);
   // Outside of the stretch the factor fades over one diameter; at an end of the vessel it need not.
@@ -171,29 +152,23 @@ Result<std::string> apply(const RadiusEdit& edit, Draft& draft) {
   redrawing.shape = [&](float along, vec4 was) {
     return vec4(vec3(was), was.w * std::pow(factor, share(along)));
   };
-  if (auto drawn = redrawLine(draft, *vessel, redrawing); !drawn) return drawn.error();
+  if (auto drawn = redrawLine(draft, vessel, redrawing); !drawn) return drawn.error();
   return fmt::format("radius times {:.3g} from {:.1f} to {:.1f} mm", factor, from / kMm, to / kMm);
 }
 
-Result<std::string> apply(const StenosisEdit& edit, Draft& draft) {
-  const auto vessel = draft.find(edit.vessel);
-  if (!vessel) return vessel.error();
-  return narrow(draft, *vessel, edit.at, float(edit.lengthMm) * kMm, float(edit.percent),
+Result<std::string> apply(const StenosisEdit& edit, VesselId vessel, Draft& draft) {
+  return narrow(draft, vessel, edit.at, float(edit.lengthMm) * kMm, float(edit.percent),
                 float(edit.eccentricity));
 }
 
-Result<std::string> apply(const OccludeEdit& edit, Draft& draft) {
-  const auto vessel = draft.find(edit.vessel);
-  if (!vessel) return vessel.error();
-  const Course course(draft.line(*vessel));
+Result<std::string> apply(const OccludeEdit& edit, VesselId vessel, Draft& draft) {
+  const Course course(draft.line(vessel));
   const float length = std::min(4 * course.at(course.metres(edit.at)).w, course.arc.length());
-  return narrow(draft, *vessel, edit.at, length, kOccludedPercent, 0);
+  return narrow(draft, vessel, edit.at, length, kOccludedPercent, 0);
 }
 
-Result<std::string> apply(const AneurysmEdit& edit, Draft& draft) {
-  const auto vessel = draft.find(edit.vessel);
-  if (!vessel) return vessel.error();
-  const Course course(draft.line(*vessel));
+Result<std::string> apply(const AneurysmEdit& edit, VesselId vessel, Draft& draft) {
+  const Course course(draft.line(vessel));
   const float length = course.arc.length(), middle = course.metres(edit.at),
               half = 0.5f * float(edit.lengthMm) * kMm;
   const float radius = 0.5f * float(edit.diameterMm) * kMm, whole = course.at(middle).w;
@@ -205,34 +180,32 @@ Result<std::string> apply(const AneurysmEdit& edit, Draft& draft) {
                                 edit.diameterMm, 2 * whole / kMm));
   vec3 side(0);
   if (edit.side != EditSide::none) {
-    side = aside(axisOf(edit.side), course.tangent(middle));
+    side = aside(kAxes[int(edit.side)], course.tangent(middle));
     if (glm::length(side) == 0) return badInput("the vessel runs to that side itself; choose another side");
   }
   Redrawing redrawing{std::max(middle - half, 0.0f), std::min(middle + half, length),
                       2 * half / kStepsOfLesion};
   redrawing.shape = [&](float along, vec4 was) {
     const float more = (radius - whole) * bump((along - middle) / half);
-    return vec4(vec3(was) + more * holdOfEnds(draft, *vessel, length, half, along) * side, was.w + more);
+    return vec4(vec3(was) + more * holdOfEnds(draft, vessel, length, half, along) * side, was.w + more);
   };
-  if (auto drawn = redrawLine(draft, *vessel, redrawing); !drawn) return drawn.error();
-  const Course now(draft.line(*vessel));
+  if (auto drawn = redrawLine(draft, vessel, redrawing); !drawn) return drawn.error();
+  const Course now(draft.line(vessel));
   float most = 0;
   for (int k = 0; k <= 400; ++k)
     most = std::max(most, now.at(now.metres(edit.at) + half * (float(k) / 200 - 1)).w);
   return fmt::format("diameter {:.2f} mm, was {:.2f} mm", 2 * most / kMm, 2 * whole / kMm);
 }
 
-Result<std::string> apply(const MoveEdit& edit, Draft& draft) {
-  const auto vessel = draft.find(edit.vessel);
-  if (!vessel) return vessel.error();
-  const Course course(draft.line(*vessel));
+Result<std::string> apply(const MoveEdit& edit, VesselId vessel, Draft& draft) {
+  const Course course(draft.line(vessel));
   const float length = course.arc.length(), middle = course.metres(edit.at);
   const vec3 way = vec3(edit.byMm) * kMm;
   const float falloff = edit.falloffMm > 0 ? float(edit.falloffMm) * kMm : kWayToFalloff * glm::length(way);
   // An end that meets others holds the course within what lies between the two, so that the place itself
   // moves all the way.
-  const bool heldStart = draft.jointOf({*vessel, false}) != nullptr,
-             heldEnd = draft.jointOf({*vessel, true}) != nullptr;
+  const bool heldStart = draft.jointOf({vessel, false}) != nullptr,
+             heldEnd = draft.jointOf({vessel, true}) != nullptr;
   const float before = heldStart ? std::min(falloff, middle) : falloff,
               after = heldEnd ? std::min(falloff, length - middle) : falloff;
   const float least = std::min({before, after, length});
@@ -246,14 +219,12 @@ Result<std::string> apply(const MoveEdit& edit, Draft& draft) {
   redrawing.shape = [&](float along, vec4 was) {
     return was + vec4(bump((along - middle) / (along < middle ? before : after)) * way, 0);
   };
-  if (auto drawn = redrawLine(draft, *vessel, redrawing); !drawn) return drawn.error();
+  if (auto drawn = redrawLine(draft, vessel, redrawing); !drawn) return drawn.error();
   return fmt::format("moved by {:.1f} mm, fading over {:.1f} mm", glm::length(way) / kMm, falloff / kMm);
 }
 
-Result<std::string> apply(const StentEdit& edit, Draft& draft) {
-  const auto vessel = draft.find(edit.vessel);
-  if (!vessel) return vessel.error();
-  const Course course(draft.line(*vessel));
+Result<std::string> apply(const StentEdit& edit, VesselId vessel, Draft& draft) {
+  const Course course(draft.line(vessel));
   const float length = course.arc.length(), from = course.metres(edit.from), to = course.metres(edit.to);
   const float floor = float(edit.radiusMm) * kMm;
   float narrowest = floor;
@@ -272,8 +243,8 @@ Result<std::string> apply(const StentEdit& edit, Draft& draft) {
     const float lack = floor - was.w, slack = kStentSlack * floor;
     return vec4(vec3(was), was.w + share * 0.5f * (lack + std::sqrt(lack * lack + slack * slack)));
   };
-  if (auto drawn = redrawLine(draft, *vessel, redrawing); !drawn) return drawn.error();
-  const Course now(draft.line(*vessel));
+  if (auto drawn = redrawLine(draft, vessel, redrawing); !drawn) return drawn.error();
+  const Course now(draft.line(vessel));
   float least = 1e9f;
   for (int k = 0; k <= 400; ++k)
     least = std::min(least, now.at(now.metres(std::lerp(edit.from, edit.to, double(k) / 400))).w);

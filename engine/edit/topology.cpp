@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
 #include <utility>
 
 #include "core/disjoint_sets.h"
@@ -76,12 +75,10 @@ std::vector<vec4> straight(vec3 from, vec3 to, float radius) {
 
 }  // namespace
 
-Result<std::string> apply(const BranchEdit& edit, Draft& draft) {
-  const auto vessel = draft.find(edit.vessel);
-  if (!vessel) return vessel.error();
+Result<std::string> apply(const BranchEdit& edit, VesselId vessel, Draft& draft) {
   if (auto fresh = mustBeNew(draft, edit.name); !fresh) return fresh.error();
-  const Draft::Place place = placeAt(draft, *vessel, edit.at);
-  const auto& points = draft.line(*vessel).points;
+  const Draft::Place place = placeAt(draft, vessel, edit.at);
+  const auto& points = draft.line(vessel).points;
   const vec4 root = evaluate(points, place.parameter);
   const vec3 direction(glm::normalize(edit.direction)), tangent = unitTangent(points, place.parameter);
   const float length = float(edit.lengthMm) * kMm, cosine = std::abs(glm::dot(direction, tangent));
@@ -96,7 +93,7 @@ Result<std::string> apply(const BranchEdit& edit, Draft& draft) {
           "length_mm {:.1f} ends within the vessel, whose wall it meets after {:.1f} mm; make it longer",
           edit.lengthMm, inside / kMm));
   }
-  const NetworkBuilder::Label label{edit.name, {}, draft.line(*vessel).label.kind};
+  const NetworkBuilder::Label label{edit.name, {}, draft.line(vessel).label.kind};
   const VesselId branch =
       append(draft, label, straight(vec3(root), vec3(root) + length * direction, float(edit.radiusMm) * kMm));
   hang(draft, {branch, false}, place, edit.at);
@@ -161,18 +158,16 @@ std::size_t removeCutOff(Draft& draft, std::span<const std::uint32_t> before, st
 
 }  // namespace
 
-Result<std::string> apply(const GraftEdit& edit, Draft& draft) {
-  const auto from = draft.find(edit.vessel);
-  if (!from) return from.error();
+Result<std::string> apply(const GraftEdit& edit, VesselId from, Draft& draft) {
   const auto to = draft.find(edit.other);
   if (!to) return badInput("\"" + edit.other + "\": " + to.error().message);
-  if (*from == *to) return badInput("A and B must be two vessels");
+  if (from == *to) return badInput("A and B must be two vessels");
   const std::string name =
-      edit.name.empty() ? "graft from " + draft.line(*from).label.name + " to " + draft.line(*to).label.name
+      edit.name.empty() ? "graft from " + draft.line(from).label.name + " to " + draft.line(*to).label.name
                         : edit.name;
   if (auto fresh = mustBeNew(draft, name); !fresh) return fresh.error();
   GraftTask task{
-      placeAt(draft, *from, edit.at), placeAt(draft, *to, edit.otherAt), float(edit.radiusMm) * kMm, {}};
+      placeAt(draft, from, edit.at), placeAt(draft, *to, edit.otherAt), float(edit.radiusMm) * kMm, {}};
   for (const dvec3& place : edit.via) task.via.push_back(vec3(place) * kMm);
   if (const float way = wayOf(draft, task), most = kLongestWay * reachOf(draft); way > most)
     return badInput(fmt::format(
@@ -193,17 +188,15 @@ Result<std::string> apply(const GraftEdit& edit, Draft& draft) {
           at.x / kMm, at.y / kMm, at.z / kMm));
     }
   const float length = lengthOf(course.points);
-  const VesselId graft = append(draft, {name, {}, draft.line(*from).label.kind}, std::move(course.points));
+  const VesselId graft = append(draft, {name, {}, draft.line(from).label.kind}, std::move(course.points));
   hang(draft, {graft, false}, task.from, edit.at);
   hang(draft, {graft, true}, task.to, edit.otherAt);
   return fmt::format("\"{}\" of {:.1f} mm{}", name, length / kMm,
                      inTheWay.empty() ? "" : ", through " + listOf(inTheWay));
 }
 
-Result<std::string> apply(const CutEdit& edit, Draft& draft) {
-  const auto vessel = draft.find(edit.vessel);
-  if (!vessel) return vessel.error();
-  const std::vector<vec4> points = draft.line(*vessel).points;
+Result<std::string> apply(const CutEdit& edit, VesselId vessel, Draft& draft) {
+  const std::vector<vec4> points = draft.line(vessel).points;
   const ArcLength arc(points);
   const float length = arc.length(), from = float(edit.from) * length, to = float(edit.to) * length;
   const float low = arc.parameterAt(from), high = arc.parameterAt(to), spans = float(spanCount(points));
@@ -215,7 +208,7 @@ Result<std::string> apply(const CutEdit& edit, Draft& draft) {
       return badInput(fmt::format(
           "only {:.1f} mm would be left on one side, less than the vessel is wide ({:.1f} mm); cut from 0 or up to 1",
           rest / kMm, wide / kMm));
-  if (const auto hanging = draft.hangingOn(*vessel, keepsHead ? low : -1, keepsTail ? high : spans + 1);
+  if (const auto hanging = draft.hangingOn(vessel, keepsHead ? low : -1, keepsTail ? high : spans + 1);
       !hanging.empty())
     return badInput(listOf(hanging) + (hanging.size() > 1 ? " hang" : " hangs") +
                     " on what would be cut out; delete " + (hanging.size() > 1 ? "them" : "it") +
@@ -228,42 +221,40 @@ Result<std::string> apply(const CutEdit& edit, Draft& draft) {
   Redrawn head, tail;
   if (keepsHead) head = pieceOf(0, from, from);
   if (keepsTail) tail = pieceOf(to, length, to);
-  VesselId second = *vessel;
+  VesselId second = vessel;
   if (keepsHead && keepsTail) {
-    std::string name = draft.line(*vessel).label.name;
-    for (int k = 2; draft.hasName(name); ++k) name = draft.line(*vessel).label.name + fmt::format(" ({})", k);
-    NetworkBuilder::Label label = draft.line(*vessel).label;
+    std::string name = draft.line(vessel).label.name;
+    for (int k = 2; draft.hasName(name); ++k) name = draft.line(vessel).label.name + fmt::format(" ({})", k);
+    NetworkBuilder::Label label = draft.line(vessel).label;
     label.name = name;
     second = append(draft, label, tail.points);
   }
   const auto detach = [&](VesselEnd end) {
     if (Draft::Joint* joint = draft.jointOf(end)) std::erase(joint->ends, end);
   };
-  if (!keepsHead) detach({*vessel, false});
-  if (!keepsTail) detach({*vessel, true});
-  if (second != *vessel)
-    if (Draft::Joint* joint = draft.jointOf({*vessel, true}))
-      std::ranges::replace(joint->ends, VesselEnd{*vessel, true}, VesselEnd{second, true});
+  if (!keepsHead) detach({vessel, false});
+  if (!keepsTail) detach({vessel, true});
+  if (second != vessel)
+    if (Draft::Joint* joint = draft.jointOf({vessel, true}))
+      std::ranges::replace(joint->ends, VesselEnd{vessel, true}, VesselEnd{second, true});
   const auto map = [&](float u) -> std::optional<Draft::Place> {
     if (keepsHead && u <= low)
-      return Draft::Place{*vessel, std::min(head.place(u), float(spanCount(head.points)))};
+      return Draft::Place{vessel, std::min(head.place(u), float(spanCount(head.points)))};
     if (keepsTail && u >= high)
       return Draft::Place{second, std::clamp(tail.place(u), 0.0f, float(spanCount(tail.points)))};
     return std::nullopt;
   };
-  draft.redraw(*vessel, keepsHead ? head.points : tail.points, map, keepsHead ? head.changedFrom : 0,
+  draft.redraw(vessel, keepsHead ? head.points : tail.points, map, keepsHead ? head.changedFrom : 0,
                keepsTail ? tail.changedTo : spans);
   draft.dropEmptyJoints();
   const std::string taken = fmt::format("{:.1f} mm taken out", (to - from) / kMm);
-  return second == *vessel ? taken : taken + "; the rest is \"" + draft.line(second).label.name + "\"";
+  return second == vessel ? taken : taken + "; the rest is \"" + draft.line(second).label.name + "\"";
 }
 
-Result<std::string> apply(const JoinEdit& edit, Draft& draft) {
-  const auto first = draft.find(edit.vessel);
-  if (!first) return first.error();
+Result<std::string> apply(const JoinEdit& edit, VesselId first, Draft& draft) {
   const auto second = draft.find(edit.other);
   if (!second) return badInput("\"" + edit.other + "\": " + second.error().message);
-  if (*first == *second) return badInput("A and B must be two vessels");
+  if (first == *second) return badInput("A and B must be two vessels");
   // The nearest two ends that are free, or meet each other and nobody else.
   const auto joinable = [&](VesselEnd a, VesselEnd b) {
     const Draft::Joint *at = draft.jointOf(a), *bt = draft.jointOf(b);
@@ -273,9 +264,9 @@ Result<std::string> apply(const JoinEdit& edit, Draft& draft) {
   float gap = std::numeric_limits<float>::infinity();
   for (const bool lastA : {true, false})
     for (const bool lastB : {false, true}) {
-      const VesselEnd ends[2] = {{*first, lastA}, {*second, lastB}};
-      const float apart = glm::distance(vec3(endPoint(draft.line(*first), lastA)),
-                                        vec3(endPoint(draft.line(*second), lastB)));
+      const VesselEnd ends[2] = {{first, lastA}, {*second, lastB}};
+      const float apart =
+          glm::distance(vec3(endPoint(draft.line(first), lastA)), vec3(endPoint(draft.line(*second), lastB)));
       if (joinable(ends[0], ends[1]) && apart < gap) gap = apart, a = ends[0], b = ends[1];
     }
   const std::string other = draft.line(*second).label.name;
@@ -317,18 +308,18 @@ Result<std::string> apply(const JoinEdit& edit, Draft& draft) {
   draft.dropEmptyJoints();
   const VesselEnd farOfSecond{*second, !b.last};
   if (Draft::Joint* joint = draft.jointOf(farOfSecond))
-    std::ranges::replace(joint->ends, farOfSecond, VesselEnd{*first, a.last});
-  const std::vector<vec4> before = draft.line(*first).points, other_ = draft.line(*second).points;
+    std::ranges::replace(joint->ends, farOfSecond, VesselEnd{first, a.last});
+  const std::vector<vec4> before = draft.line(first).points, other_ = draft.line(*second).points;
   for (Draft::Joint& joint : draft.joints)
-    if (joint.host && joint.host->vessel == *second) joint.host = Host{*first, -1 - joint.host->parameter};
+    if (joint.host && joint.host->vessel == *second) joint.host = Host{first, -1 - joint.host->parameter};
   draft.redraw(
-      *first, std::move(joined),
+      first, std::move(joined),
       [&](float u) {
         return Draft::Place{
-            *first, u < 0 ? nearest(vec3(evaluate(other_, -1 - u))) : nearest(vec3(evaluate(before, u)))};
+            first, u < 0 ? nearest(vec3(evaluate(other_, -1 - u))) : nearest(vec3(evaluate(before, u)))};
       },
       0, float(spanCount(before)));
-  const VesselKind kind = draft.line(*first).label.kind, was = draft.line(*second).label.kind;
+  const VesselKind kind = draft.line(first).label.kind, was = draft.line(*second).label.kind;
   draft.remove(*second);
   return fmt::format(
       "\"{}\" is part of it{}{}", other,
@@ -336,39 +327,33 @@ Result<std::string> apply(const JoinEdit& edit, Draft& draft) {
       was != kind ? fmt::format("; its kind was {} and is {} now", kindName(was), kindName(kind)) : "");
 }
 
-Result<std::string> apply(const RenameEdit& edit, Draft& draft) {
-  const auto vessel = draft.find(edit.vessel);
-  if (!vessel) return vessel.error();
+Result<std::string> apply(const RenameEdit& edit, VesselId vessel, Draft& draft) {
   if (auto fresh = mustBeNew(draft, edit.name); !fresh) return fresh.error();
-  draft.line(*vessel).label.name = edit.name;
+  draft.line(vessel).label.name = edit.name;
   return "named \"" + edit.name + "\"";
 }
 
-Result<std::string> apply(const KindEdit& edit, Draft& draft) {
-  const auto vessel = draft.find(edit.vessel);
-  if (!vessel) return vessel.error();
-  const std::string before(kindName(draft.line(*vessel).label.kind));
-  draft.line(*vessel).label.kind = edit.kind;
+Result<std::string> apply(const KindEdit& edit, VesselId vessel, Draft& draft) {
+  const std::string before(kindName(draft.line(vessel).label.kind));
+  draft.line(vessel).label.kind = edit.kind;
   return fmt::format("{}, was {}", kindName(edit.kind), before);
 }
 
-Result<std::string> apply(const DeleteEdit& edit, Draft& draft) {
-  const auto vessel = draft.find(edit.vessel);
-  if (!vessel) return vessel.error();
-  std::vector<VesselId> below{*vessel};
+Result<std::string> apply(const DeleteEdit& edit, VesselId vessel, Draft& draft) {
+  std::vector<VesselId> below{vessel};
   for (std::size_t i = 0; i < below.size(); ++i)
     for (const Draft::Joint& joint : draft.joints)
       if (joint.host && joint.host->vessel == below[i])
         for (const VesselEnd& end : joint.ends)
           if (std::ranges::find(below, end.vessel) == below.end()) below.push_back(end.vessel);
   if (below.size() > 1 && !edit.tree) {
-    const auto hanging = draft.hangingOn(*vessel, -1, 1e9f);
+    const auto hanging = draft.hangingOn(vessel, -1, 1e9f);
     return badInput(listOf(hanging) + (hanging.size() > 1 ? " hang" : " hangs") +
                     " on it; delete it with its branches (in a journal: delete ... tree) to take all " +
                     fmt::format("{} below it away, too", below.size() - 1));
   }
   const std::vector<std::uint32_t> before = partsOf(draft);
-  const std::uint32_t whole = before[vessel->value];
+  const std::uint32_t whole = before[vessel.value];
   for (const VesselId each : below) draft.remove(each);
   std::size_t taken = below.size();
   if (edit.tree) taken += removeCutOff(draft, before, whole);

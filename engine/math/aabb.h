@@ -13,6 +13,13 @@ struct Aabb {
   bool empty() const { return low.x > high.x; }
   vec3 centre() const { return 0.5f * (low + high); }
   vec3 extent() const { return high - low; }
+  /// The largest extent; 0 where it is empty.
+  float size() const { return empty() ? 0 : glm::max(glm::max(extent().x, extent().y), extent().z); }
+  /// The axis along which it is longest, the first of several.
+  int longestAxis() const {
+    const vec3 along = extent();
+    return along.x >= along.y && along.x >= along.z ? 0 : along.y >= along.z ? 1 : 2;
+  }
   void add(vec3 point) {
     low = glm::min(low, point);
     high = glm::max(high, point);

@@ -15,9 +15,7 @@ float heightOf(const Centrelines& centrelines) {
   Aabb box;
   for (const auto& line : centrelines.lines)
     for (const vec4& s : line.samples) box.add(vec3(s), s.w);
-  if (box.empty()) return 0;
-  const vec3 extent = box.extent();
-  return std::max({extent.x, extent.y, extent.z});
+  return box.size();
 }
 
 }  // namespace

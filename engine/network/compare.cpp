@@ -1,7 +1,6 @@
 #include "network/compare.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <set>

@@ -43,10 +43,8 @@ Grid gridOf(std::span<const vec4> points) {
   }
   Grid grid;
   if (points.empty()) return grid;
-  const vec3 extent = box.extent();
-  const float largest = std::max({extent.x, extent.y, extent.z});
   int exponent = -40;  // finer than any float needs
-  while (std::ldexp(kGridSteps - 1, exponent) < largest) ++exponent;
+  while (std::ldexp(kGridSteps - 1, exponent) < box.size()) ++exponent;
   grid.exponent = std::int8_t(exponent);
   for (int axis = 0; axis < 3; ++axis)
     grid.origin[axis] = std::round(box.low[axis] / grid.step()) * grid.step();

@@ -27,10 +27,6 @@ bool surelyBelow(const Bezier& tube, float limit) {
   return advance > 0 && radius * 6 * bend < limit * 9 * advance * advance;
 }
 
-bool fixedEnd(const Vessel& vessel, std::uint32_t l) {
-  return (l == 0 && vessel.start.valid()) || (l + 1 == vessel.pointCount && vessel.end.valid());
-}
-
 // The largest r κ in nine places, 0 where it is surely below a limit.
 float bendOf(const Bezier& tube, float limit) {
   if (surelyBelow(tube, limit)) return 0;
@@ -87,7 +83,7 @@ std::uint32_t KinkRelaxer::run(std::span<vec4> points) const {
       for (std::uint32_t span = 0; span < vessel.spanCount(); ++span)
         for (std::uint32_t l = std::max(span, 1u);
              shares[span] > 0 && l < std::min(span + 4, vessel.pointCount - 1); ++l) {
-          if (fixedEnd(vessel, l)) continue;
+          if (vessel.isPinned(l)) continue;
           const vec3 middle = 0.5f * (vec3(own[l - 1]) + vec3(own[l + 1]));
           own[l] = vec4(glm::mix(vec3(own[l]), middle, shares[span]), own[l].w);
         }

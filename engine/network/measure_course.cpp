@@ -23,11 +23,8 @@ void sharpestBend(std::span<const vec4> points, CourseMeasures& out) {
     const Bezier segment = bezierOfSpan(points, span);
     for (int k = 0; k <= kLooks; ++k) {
       const float t = float(k) / kLooks;
-      const vec3 first(segment.derivative(t)), second(segment.secondDerivative(t));
-      const float speed = glm::length(first);
-      if (k > 0) along += double(speed) / kLooks;
-      if (!(speed > 1e-9f)) continue;
-      const float curvature = glm::length(glm::cross(first, second)) / (speed * speed * speed);
+      if (k > 0) along += double(glm::length(vec3(segment.derivative(t)))) / kLooks;
+      const float curvature = segment.curvature(t);
       if (curvature > most) most = curvature, out.bendAt = float(along);
       out.greatestKink = std::max(out.greatestKink, curvature * segment.at(t).w);
     }

@@ -25,7 +25,7 @@ View viewFrom(std::span<const vec4> points, float parameter, bool forwards, floa
 }
 
 float parameterOf(const Network& network, const VesselEnd& end) {
-  return end.last ? float(network.vessel(end.vessel).spanCount()) : 0.0f;
+  return network.vessel(end.vessel).parameterOf(end.last);
 }
 
 // The vessel that comes to a fork, and where on it the fork is.
@@ -98,21 +98,13 @@ std::optional<float> murrayExponent(float trunk, std::span<const float> arms) {
   return 0.5f * (low + high);
 }
 
-std::vector<ForkMeasures> measureForks(const Network& network, std::span<const vec4> points) {
+std::vector<ForkMeasures> measureForks(const Network& network, std::span<const vec4> points,
+                                       std::optional<VesselId> trunk) {
   std::vector<ForkMeasures> all;
   for (const Node& node : network.nodes())
-    if (const auto trunk = trunkOf(network, points, node))
-      all.push_back(forkAt(network, points, node, *trunk));
+    if (const auto at = trunkOf(network, points, node); at && (!trunk || at->vessel == *trunk))
+      all.push_back(forkAt(network, points, node, *at));
   return all;
-}
-
-std::vector<ForkMeasures> measureForksOf(const Network& network, std::span<const vec4> points,
-                                         VesselId vessel) {
-  std::vector<ForkMeasures> its;
-  for (const Node& node : network.nodes())
-    if (const auto trunk = trunkOf(network, points, node); trunk && trunk->vessel == vessel)
-      its.push_back(forkAt(network, points, node, *trunk));
-  return its;
 }
 
 }  // namespace vasa

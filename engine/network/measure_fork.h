@@ -27,11 +27,11 @@ struct ForkMeasures {
   std::optional<float> murray;
 };
 
-/// All forks of a network, in the order of its nodes. @param points  as Network::points(). O(nodes)
-std::vector<ForkMeasures> measureForks(const Network& network, std::span<const vec4> points);
-/// Those alone that one vessel is the trunk of. O(nodes), and what its own forks take
-std::vector<ForkMeasures> measureForksOf(const Network& network, std::span<const vec4> points,
-                                         VesselId trunk);
+/// The forks of a network, in the order of its nodes. O(nodes), and what the forks take
+/// @param points  as Network::points()
+/// @param trunk   those alone that this vessel is the trunk of
+std::vector<ForkMeasures> measureForks(const Network& network, std::span<const vec4> points,
+                                       std::optional<VesselId> trunk = {});
 
 /// The exponent alone, to a thousandth; none where there is none from 0.5 to 20.
 std::optional<float> murrayExponent(float trunk, std::span<const float> arms);

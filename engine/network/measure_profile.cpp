@@ -28,9 +28,7 @@ void addStations(std::span<const vec4> points, float from, float to, float step,
     const vec4 at = segment.at(t);
     station.centre = vec3(at), station.radius = at.w;
     station.tangent = unitTangent(points, station.parameter);
-    const vec3 speedOf(segment.derivative(t)), second(segment.secondDerivative(t));
-    const float speed = glm::length(speedOf);
-    if (speed > 1e-9f) station.curvature = glm::length(glm::cross(speedOf, second)) / (speed * speed * speed);
+    station.curvature = segment.curvature(t);
     stations.push_back(station);
   }
 }

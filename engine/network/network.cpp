@@ -7,19 +7,8 @@
 namespace vasa {
 
 std::string_view kindName(VesselKind kind) {
-  switch (kind) {
-    case VesselKind::artery:
-      return "artery";
-    case VesselKind::vein:
-      return "vein";
-    case VesselKind::portalVein:
-      return "portal vein";
-    case VesselKind::lymphatic:
-      return "lymphatic";
-    case VesselKind::other:
-      break;
-  }
-  return "other";
+  constexpr std::string_view kNames[] = {"artery", "vein", "portal vein", "lymphatic", "other"};
+  return kNames[int(kind)];
 }
 
 std::uint32_t Network::sweepCount() const {

@@ -24,6 +24,12 @@ struct Vessel {
   NodeId start, end;             ///< node at the first / last point; invalid where the end is free
 
   std::uint32_t spanCount() const { return pointCount - 3; }
+  NodeId node(bool last) const { return last ? end : start; }
+  float parameterOf(bool last) const { return last ? float(spanCount()) : 0; }
+  /// Whether one of its points is pinned to a node.
+  bool isPinned(std::uint32_t point) const {
+    return (point == 0 && start.valid()) || (point + 1 == pointCount && end.valid());
+  }
 };
 
 /// One end of a vessel that meets a node.

@@ -21,9 +21,8 @@ void write(const ForkPatch& patch, PortableWriter& out) {
   }
   Aabb box;
   for (const vec3& p : patch.positions) box.add(p);
-  const vec3 extent = box.extent();
   int exponent = kFinest;
-  while (std::ldexp(kGridSteps - 1, exponent) < std::max({extent.x, extent.y, extent.z})) ++exponent;
+  while (std::ldexp(kGridSteps - 1, exponent) < box.size()) ++exponent;
   const float step = std::ldexp(1.0f, exponent);
   vec3 origin;
   for (int axis = 0; axis < 3; ++axis) origin[axis] = std::round(box.low[axis] / step) * step;

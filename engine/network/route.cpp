@@ -30,7 +30,7 @@ Relatives relativesOf(const Network& network, VesselId id) {
   Relatives relatives;
   const Vessel& vessel = network.vessel(id);
   for (const bool last : {false, true}) {
-    const NodeId at = last ? vessel.end : vessel.start;
+    const NodeId at = vessel.node(last);
     if (!at.valid()) continue;
     const Node& node = network.node(at);
     if (node.host) addOnce(relatives.parents, node.host->vessel);
@@ -73,7 +73,7 @@ RouteFinder::RouteFinder(const Network& network, std::span<const vec4> points)
     const Node& node = network.nodes()[n];
     if (node.host) stop(node.host->vessel, node.host->parameter, n);
     for (const VesselEnd& end : network.ends(node))
-      stop(end.vessel, end.last ? float(network.vessel(end.vessel).spanCount()) : 0, n);
+      stop(end.vessel, network.vessel(end.vessel).parameterOf(end.last), n);
   }
   for (Line& line : lines_) std::ranges::stable_sort(line.stops, {}, &Stop::parameter);
 }
@@ -119,7 +119,7 @@ std::optional<Route> RouteFinder::find(VesselPlace from, VesselPlace to) const {
     const Node& node = network_->nodes()[at];
     if (node.host) leave(node.host->vessel, node.host->parameter, length, at);
     for (const VesselEnd& end : network_->ends(node))
-      leave(end.vessel, end.last ? float(network_->vessel(end.vessel).spanCount()) : 0, length, at);
+      leave(end.vessel, network_->vessel(end.vessel).parameterOf(end.last), length, at);
   }
   if (ways[goal].length == kFar) return std::nullopt;
   Route route{{}, ways[goal].length};
