@@ -20,4 +20,17 @@ float Body::height() const {
   return box.empty() ? 0 : box.extent()[uprightAxis(rigOf(skeleton))];
 }
 
+void takeJoints(Body& body, JointsKept kept) {
+  body.skeleton = std::move(kept.skeleton);
+  for (SkinnedMesh& mesh : body.meshes)
+    for (SkinInfluence& influence : mesh.influences)
+      for (std::uint16_t& joint : influence.joints)  // those without weight may be any
+        joint = kept.now[joint].valid() ? std::uint16_t(kept.now[joint].value) : std::uint16_t(0);
+  for (Clip& clip : body.clips) {
+    std::erase_if(clip.tracks,
+                  [&](const JointTracks& track) { return !kept.now[track.joint.value].valid(); });
+    for (JointTracks& track : clip.tracks) track.joint = kept.now[track.joint.value];
+  }
+}
+
 }  // namespace vasa

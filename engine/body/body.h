@@ -61,4 +61,8 @@ struct Body {
   float height() const;
 };
 
+/// Gives a body some of its joints alone: meshes and clips go on with what each joint is now. What is left
+/// out must move nothing; its tracks go.
+void takeJoints(Body& body, JointsKept kept);
+
 }  // namespace vasa

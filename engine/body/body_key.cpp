@@ -6,16 +6,6 @@
 namespace vasa {
 namespace {
 
-template <class T>
-std::uint64_t hashed(const T& value, std::uint64_t hash) {
-  return hashOf(std::span<const T>(&value, 1), hash);
-}
-
-template <class T>
-std::uint64_t hashedAll(const std::vector<T>& values, std::uint64_t hash) {
-  return hashed(values.size(), hashOf(std::span<const T>(values), hash));
-}
-
 std::uint64_t hashedText(const std::string& text, std::uint64_t hash) {
   return hashed(text.size(), hashOf(std::span(text), hash));
 }

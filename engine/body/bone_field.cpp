@@ -128,13 +128,10 @@ BoneField::BoneField(const Body& body, const SpineSet& spines) : parts_(spines.j
     part.tree = std::make_unique<PointTree>(3, *part.cloud);
     part.tree->buildIndex();
   }
-  const vec3 extent = bounds.extent();
-  reach_ = kReachHeights * std::max({extent.x, extent.y, extent.z});
+  reach_ = kReachHeights * bounds.size();
 }
 
 BoneField::~BoneField() = default;
-BoneField::BoneField(BoneField&&) noexcept = default;
-BoneField& BoneField::operator=(BoneField&&) noexcept = default;
 
 void BoneField::distances(vec3 p, std::span<float> distances) const {
   for (std::size_t i = 0; i < parts_.size(); ++i) {

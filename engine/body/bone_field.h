@@ -1,5 +1,4 @@
 #pragma once
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -20,8 +19,7 @@ class BoneField {
 
   BoneField(const Body& body, const SpineSet& spines);
   ~BoneField();
-  BoneField(BoneField&&) noexcept;
-  BoneField& operator=(BoneField&&) noexcept;
+  BoneField(const BoneField&) = delete;
 
   /// Distance [m] to each joint's own bones, a mean over the nearest vertices so that it varies smoothly;
   /// beyond reach() it is the distance to their box. @param distances  one a joint

@@ -48,11 +48,8 @@ struct Pelvis {
 
   Pelvis(const Skeleton& skeleton, std::span<const std::uint32_t> match) {
     const HumanoidNames parts = partsOf(skeleton);
-    const auto named = [&](std::string_view part) {
-      return std::size_t(std::ranges::find(parts.of, part) - parts.of.begin());
-    };
-    const std::size_t hips = named("hips");
-    left = named("leftUpperLeg"), right = named("rightUpperLeg");
+    const std::size_t hips = partNamed(parts.of, "hips");
+    left = partNamed(parts.of, "leftUpperLeg"), right = partNamed(parts.of, "rightUpperLeg");
     if (std::max({hips, left, right}) >= match.size() || match[left] == kNone || match[right] == kNone)
       return;
     for (const std::size_t leg : {left, right})
@@ -66,12 +63,6 @@ struct Pelvis {
 };
 
 constexpr float kPullBlur = 0.02f;  // of the body's height: about the distance between two ribs
-
-std::vector<vec3> centresAtRest(const Skeleton& skeleton) {
-  std::vector<vec3> centres;
-  for (const auto& joint : skeleton.joints) centres.emplace_back(joint.restWorld[3]);
-  return centres;
-}
 
 // How far from joint a to joint b a joint sits, as a share.
 float shareBetween(std::span<const vec3> centres, std::size_t a, std::size_t b, std::size_t joint) {
@@ -122,8 +113,7 @@ void releaseMisplaced(const Skeleton& from, std::span<const vec3> own, std::span
                       std::vector<std::uint32_t>& match) {
   const HumanoidNames parts = partsOf(from);
   const auto release = [&](const std::string& start, const std::string& end) {
-    const auto a = std::size_t(std::ranges::find(parts.of, start) - parts.of.begin()),
-               b = std::size_t(std::ranges::find(parts.of, end) - parts.of.begin());
+    const std::uint32_t a = partNamed(parts.of, start), b = partNamed(parts.of, end);
     if (a < match.size() && b < match.size() && match[a] != kNone && match[b] != kNone)
       releaseUneven(from, own, other, a, b, match);
   };
@@ -264,7 +254,7 @@ class Carrier {
                        std::max(linksLength(own_, from_.skeleton, match_), 1e-6f);
     // Without joints of its own a limb may be there all the same, moved by its upper part's alone.
     const auto isOfOneBone = [&](const std::string& upper) {
-      const auto part = std::size_t(std::ranges::find(parts.of, upper) - parts.of.begin());
+      const std::uint32_t part = partNamed(parts.of, upper);
       if (part >= match_.size() || match_[part] == kNone) return false;
       const float reach = skinReach(from_, part);
       return reach > 0 && skinReach(to_, match_[part]) > kWholeLimb * size * reach;
@@ -387,8 +377,9 @@ class Carrier {
     struct Pull {
       vec3 place, move;
     };
-    const Trunk trunk = findTrunk(rigOf(to_.skeleton));
-    const vec3 up = glm::normalize(trunk.way(centresAtRest(to_.skeleton)));
+    const Rig rig = rigOf(to_.skeleton);
+    const Trunk trunk = findTrunk(rig);
+    const vec3 up = glm::normalize(trunk.way(rig.centres));
     const auto height = [&](vec3 p) { return glm::dot(p, up); };
     std::vector<Pull> pulls;
     for (std::size_t k = 0; k < headsWanted_.size(); ++k) {

@@ -4,13 +4,13 @@
 #include <cassert>
 #include <cmath>
 
-#include "body/clip_end.h"
-
 // Interpolation as in glTF 2.0, appendix C. Cubic: with u in [0, 1] between keys k and k + 1, d seconds
 // apart, p = (2u³-3u²+1) v_k + d (u³-2u²+u) b_k + (-2u³+3u²) v_{k+1} + d (u³-u²) a_{k+1}, a and b the in- and
 // out-tangents.
 namespace vasa {
 namespace {
+
+constexpr float kKeyRounding = 0.01f;  // frames, by which times of keys may be rounded
 
 vec3 between(vec3 a, vec3 b, float u) { return a + u * (b - a); }
 quat between(quat a, quat b, float u) {
@@ -93,6 +93,17 @@ Pose samplePose(const Skeleton& skeleton, const Clip& clip, float time) {
   Pose pose;
   samplePose(skeleton, clip, time, pose);
   return pose;
+}
+
+bool endsOnFrame(const Clip& clip) {
+  return (clip.end - clip.timeOfFrame(clip.frameCount() - 1)) * clip.framesPerSecond <= kKeyRounding;
+}
+
+std::vector<float> momentsOf(const Clip& clip) {
+  std::vector<float> times;
+  for (std::uint32_t f = 0; f < clip.frameCount(); ++f) times.push_back(clip.timeOfFrame(f));
+  if (!endsOnFrame(clip)) times.push_back(clip.end);
+  return times;
 }
 
 bool closes(const Skeleton& skeleton, const Clip& clip) {

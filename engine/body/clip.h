@@ -47,6 +47,12 @@ struct Clip {
 Pose samplePose(const Skeleton& skeleton, const Clip& clip, float time);
 void samplePose(const Skeleton& skeleton, const Clip& clip, float time, Pose& pose);
 
+/// Whether a clip's last key falls on its last frame, and not between that and a next one, which it does not
+/// have.
+bool endsOnFrame(const Clip& clip);
+/// The times of a clip's frames, and its end where that falls between them.
+std::vector<float> momentsOf(const Clip& clip);
+
 /// Whether the last pose is the first one, to a millimetre, so that the clip can go round.
 bool closes(const Skeleton& skeleton, const Clip& clip);
 

@@ -92,15 +92,10 @@ std::vector<JointId> uniteCopiedJoints(Body& body, std::span<const std::uint32_t
   for (auto& joint : body.skeleton.joints)
     if (joint.parent.valid()) joint.parent = {same[joint.parent.value]};
   for (Clip& clip : body.clips) moveTracks(clip, same);
-  auto [skeleton, now] = keepJoints(body.skeleton, kept);
-  for (std::uint32_t j = 0; j < same.size(); ++j) now[j] = now[same[j]];
-  body.skeleton = std::move(skeleton);
-  for (SkinnedMesh& mesh : body.meshes)
-    for (SkinInfluence& influence : mesh.influences)
-      for (std::uint16_t& joint : influence.joints) joint = std::uint16_t(now[joint].value);
-  for (Clip& clip : body.clips)
-    for (JointTracks& track : clip.tracks) track.joint = now[track.joint.value];
-  return std::move(now);
+  JointsKept left = keepJoints(body.skeleton, kept);
+  for (std::uint32_t j = 0; j < same.size(); ++j) left.now[j] = left.now[same[j]];
+  takeJoints(body, left);
+  return std::move(left.now);
 }
 
 }  // namespace vasa

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "body/humanoid_words.h"
+#include "core/ids.h"
 
 namespace vasa {
 namespace {
@@ -93,6 +94,11 @@ const std::vector<Part>& parts() {
 std::string_view humanoidPart(std::string_view name) {
   const auto found = std::ranges::find(parts(), name, &Part::name);
   return found == parts().end() ? std::string_view{} : std::string_view(found->name);
+}
+
+std::uint32_t partNamed(std::span<const std::string_view> parts, std::string_view part) {
+  const auto found = std::ranges::find(parts, part);
+  return found == parts.end() ? kNone : std::uint32_t(found - parts.begin());
 }
 
 void nameSpine(std::span<const std::uint32_t> joints, std::span<std::string_view> parts) {

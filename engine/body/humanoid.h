@@ -19,6 +19,9 @@ struct HumanoidNames {
 };
 HumanoidNames humanoidNames(const std::vector<std::string>& joints);
 
+/// The joint that is a part; kNone where there is none. @param parts  one a joint
+std::uint32_t partNamed(std::span<const std::string_view> parts, std::string_view part);
+
 /// The same word, for ever; empty where there is no such part.
 std::string_view humanoidPart(std::string_view name);
 

@@ -88,7 +88,7 @@ std::vector<std::string> leaveOutIdleJoints(Body& body, const std::vector<bool>&
   for (std::size_t j = 0; j < kept.size(); ++j)
     if (!kept[j]) names.push_back(body.skeleton.joints[j].name);
   if (names.empty()) return names;
-  auto [left, now] = keepJoints(body.skeleton, kept);
+  JointsKept left = keepJoints(body.skeleton, kept);
   // A skin of a part of a person, or one that is bound to nothing that ever moves, says nothing of which
   // joints count.
   const auto movesWhatStays = [&](const Clip& clip) {
@@ -96,19 +96,9 @@ std::vector<std::string> leaveOutIdleJoints(Body& body, const std::vector<bool>&
   };
   const auto parts = [](const Skeleton& skeleton) { return humanoidKeys(rigOf(skeleton).parts.of); };
   if ((!body.clips.empty() && std::ranges::none_of(body.clips, movesWhatStays)) ||
-      parts(left) < parts(body.skeleton))
+      parts(left.skeleton) < parts(body.skeleton))
     return {};
-  body.skeleton = std::move(left);
-  for (SkinnedMesh& mesh : body.meshes)
-    for (SkinInfluence& influence : mesh.influences)
-      for (int k = 0; k < 4; ++k) {
-        std::uint16_t& joint = influence.joints[std::size_t(k)];
-        joint = influence.weights[k] > 0 ? std::uint16_t(now[joint].value) : std::uint16_t(0);
-      }
-  for (Clip& clip : body.clips) {
-    std::erase_if(clip.tracks, [&](const JointTracks& track) { return !kept[track.joint.value]; });
-    for (JointTracks& track : clip.tracks) track.joint = now[track.joint.value];
-  }
+  takeJoints(body, std::move(left));
   return names;
 }
 

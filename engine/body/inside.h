@@ -1,6 +1,5 @@
 #pragma once
 #include <span>
-#include <vector>
 
 #include "body/skin_shell.h"
 #include "network/network.h"

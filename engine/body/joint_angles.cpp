@@ -1,6 +1,5 @@
 #include "body/joint_angles.h"
 
-#include <algorithm>
 #include <optional>
 
 #include "body/retarget.h"
@@ -17,14 +16,12 @@ class Anatomy {
  public:
   explicit Anatomy(const Skeleton& skeleton) : skeleton_(skeleton) {
     parts_ = partsOf(skeleton).of;
-    if (const auto left = find("leftUpperLeg"), right = find("rightUpperLeg"); left && right)
-      left_ = glm::normalize(placeOf(skeleton, *left) - placeOf(skeleton, *right));
+    if (const auto left = find("leftUpperLeg"), right = find("rightUpperLeg");
+        left != kNone && right != kNone)
+      left_ = glm::normalize(placeOf(skeleton, left) - placeOf(skeleton, right));
   }
 
-  std::optional<std::uint32_t> find(std::string_view part) const {
-    const auto found = std::ranges::find(parts_, part);
-    return found == parts_.end() ? std::nullopt : std::optional(std::uint32_t(found - parts_.begin()));
-  }
+  std::uint32_t find(std::string_view part) const { return partNamed(parts_, part); }
 
   /// The joints that share a part's motion: in the middle of the body those up to the next part, elsewhere
   /// its own.
@@ -87,12 +84,12 @@ Result<Pose> poseByAngles(const Skeleton& skeleton, std::span<const JointAngles>
   std::vector<JointTransform> local;
   for (const Skeleton::Joint& joint : skeleton.joints) local.push_back(joint.rest);
   for (const JointAngles& own : angles) {
-    const auto joint = anatomy.find(own.part);
-    if (!joint)
+    const std::uint32_t joint = anatomy.find(own.part);
+    if (joint == kNone)
       return badInput(
           "no joint of this skeleton is known to be '" + own.part +
           "'; parts are called as in VRM (leftUpperLeg, head), and vasa info --joints lists those of a body");
-    const std::vector<std::uint32_t> sharing = anatomy.jointsOf(*joint);
+    const std::vector<std::uint32_t> sharing = anatomy.jointsOf(joint);
     for (const std::uint32_t j : sharing) {
       // In model space about the joint as it is at rest; its parent's own turn comes on top of that.
       const quat turn = anatomy.turn(j, own.part, own, share / float(sharing.size()));

@@ -1,6 +1,5 @@
 #include "body/joint_motion.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "math/direction.h"
@@ -56,6 +55,18 @@ std::vector<Own> ownOf(const Skeleton& skeleton, std::span<const JointTurn> turn
   return own;
 }
 
+quat turnSinceRest(const Skeleton::Joint& joint, const JointMotion& motion, const mat4& before,
+                   const mat4& world) {
+  const quat turn = glm::inverse(joint.rest.rotation) * glm::inverse(rotationOf(before)) * rotationOf(world);
+  return glm::normalize(glm::inverse(motion.axes) * turn * motion.axes);
+}
+
+// How a pose moved what hangs on a joint's parent.
+mat4 alongWithParent(const Skeleton& skeleton, std::size_t joint, const Pose& before, const Pose& after) {
+  const JointId parent = skeleton.joints[joint].parent;
+  return parent.valid() ? after.world[parent.value] * glm::inverse(before.world[parent.value]) : mat4(1);
+}
+
 }  // namespace
 
 quat turnByAngles(vec3 angles) {
@@ -75,16 +86,6 @@ vec3 anglesOfTurn(quat turn) {
   return {share * swing.x, share * swing.y, 2 * half};
 }
 
-namespace {
-
-quat turnSinceRest(const Skeleton::Joint& joint, const JointMotion& motion, const mat4& before,
-                   const mat4& world) {
-  const quat turn = glm::inverse(joint.rest.rotation) * glm::inverse(rotationOf(before)) * rotationOf(world);
-  return glm::normalize(glm::inverse(motion.axes) * turn * motion.axes);
-}
-
-}  // namespace
-
 vec3 anglesSinceRest(const Skeleton::Joint& joint, const JointMotion& motion, const mat4& before,
                      const mat4& world) {
   return anglesOfTurn(turnSinceRest(joint, motion, before, world));
@@ -95,16 +96,6 @@ vec3 anglesBeside(const Skeleton::Joint& joint, const JointMotion& motion, const
   const quat there = turnSinceRest(joint, motion, before, world);
   return anglesOfTurn(glm::normalize(glm::inverse(there) * turnByAngles(sinceRest)));
 }
-
-namespace {
-
-// How a pose moved what hangs on a joint's parent.
-mat4 alongWithParent(const Skeleton& skeleton, std::size_t joint, const Pose& before, const Pose& after) {
-  const JointId parent = skeleton.joints[joint].parent;
-  return parent.valid() ? after.world[parent.value] * glm::inverse(before.world[parent.value]) : mat4(1);
-}
-
-}  // namespace
 
 Pose turned(const Skeleton& skeleton, const Pose& pose, std::span<const JointTurn> turns) {
   if (turns.empty()) return pose;

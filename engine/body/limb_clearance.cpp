@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cmath>
 
-#include "body/clip_end.h"
 #include "body/joint_motion.h"
 #include "body/limb_flesh.h"
 #include "body/skin_field.h"

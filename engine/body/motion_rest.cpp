@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "body/humanoid.h"
 #include "core/ids.h"
 
 namespace vasa {
@@ -32,10 +33,7 @@ class RestStance {
       if (top_ == kNone) top_ = of(part);
   }
 
-  std::uint32_t of(std::string_view part) const {
-    const auto found = std::ranges::find(parts_, part);
-    return found == parts_.end() ? kNone : std::uint32_t(found - parts_.begin());
-  }
+  std::uint32_t of(std::string_view part) const { return partNamed(parts_, part); }
   std::uint32_t hips() const { return hips_; }
 
   // Where a leg ends as far as it is known: the ankle, which may be an End Site of the shin, or a joint

@@ -40,10 +40,7 @@ constexpr float kSlope = 1.5f * 1.25f;  // over an arc
 constexpr float kTwistSlope = 6;        // over a link
 constexpr std::size_t kBlock = 64;
 
-float smoothstep(float x) {
-  x = std::clamp(x, 0.0f, 1.0f);
-  return x * x * (3 - 2 * x);
-}
+float smoothstep(float x) { return glm::smoothstep(0.0f, 1.0f, x); }
 
 /// How far [m] a place is beyond the plane of a joint, from its distances to the bones before and behind:
 /// where these are two straight links, before² − behind² is ± the square of that way. The softening keeps the

@@ -185,13 +185,10 @@ class Retargeter {
     std::vector<vec3> places(source_.size(), vec3(0));
     float least = 1e9f;
     for (std::uint32_t j = 0; j < source_.size(); ++j) {
-      bool below = j == hips_;
-      if (const std::uint32_t parent = to_.parents[j]; j != hips_ && parent != kNone) {
+      if (const std::uint32_t parent = to_.parents[j]; j != hips_ && parent != kNone)
         places[j] = places[parent] + turns[parent] * (to_.centres[j] - to_.centres[parent]);
-        for (std::uint32_t at = j; at != kNone && !below; at = to_.parents[at]) below = at == hips_;
-      }
       const std::string_view part = to_.parts.of[j];
-      if (below && (part.ends_with("Foot") || part.ends_with("Toes")))
+      if ((part.ends_with("Foot") || part.ends_with("Toes")) && hangsOn(to_.parents, j, hips_))
         least = std::min(least, places[j].y - to_.centres[j].y);
     }
     return least < 1e8f ? least : -to_.centres[hips_].y;
@@ -256,14 +253,10 @@ class Retargeter {
   }
 
   std::string turnedRound() const {
-    const auto carries = [](const Rig& rig, std::uint32_t above, std::uint32_t joint) {
-      while (joint != kNone && joint != above) joint = rig.parents[joint];
-      return joint == above;
-    };
     for (std::uint32_t j = 0; j < source_.size(); ++j)
       for (std::uint32_t above = to_.parents[j]; above != kNone; above = to_.parents[above]) {
         if (source_[j] == kNone || source_[above] == kNone || source_[j] == source_[above]) continue;
-        if (carries(from_, source_[j], source_[above]))
+        if (hangsOn(from_.parents, source_[above], source_[j]))
           return "'" + to_.names[above] + "' above '" + to_.names[j] + "'";
       }
     return "";

@@ -34,11 +34,6 @@ void nameParts(Rig& rig) {
 
 }  // namespace
 
-std::uint32_t Rig::partNamed(std::string_view part) const {
-  const auto found = std::ranges::find(parts.of, part);
-  return found == parts.of.end() ? kNone : std::uint32_t(found - parts.of.begin());
-}
-
 std::uint32_t Rig::limbEnd(std::string_view part) const {
   for (const auto& [own, behind] : {std::pair{"UpperArm", "LowerArm"},
                                     {"LowerArm", "Hand"},
@@ -159,8 +154,7 @@ float plausibility(const Rig& rig) {
   float arm = 0, leg = 0;
   const auto ask = [&](bool holds, int weight = 1) { asked += weight, held += holds ? weight : 0; };
   const auto below = [&](std::uint32_t joint, std::uint32_t above) {
-    while (joint != kNone && joint != above) joint = rig.parents[joint];
-    return joint == above;
+    return hangsOn(rig.parents, joint, above);
   };
   const auto part = [&](const char* side, const char* name) {
     return rig.partNamed(std::string(side) + name);

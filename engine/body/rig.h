@@ -24,7 +24,7 @@ struct Rig {
   HumanoidNames parts;                 ///< by name; where names tell little, by the skeleton's shape
 
   /// kNone where there is none.
-  std::uint32_t partNamed(std::string_view part) const;
+  std::uint32_t partNamed(std::string_view part) const { return vasa::partNamed(parts.of, part); }
   /// The joint at which the bone of an arm's or a leg's part ends; kNone for other parts.
   std::uint32_t limbEnd(std::string_view part) const;
   /// Where the bone of a joint that is this part ends: at that joint, or at its own tip where a skeleton ends

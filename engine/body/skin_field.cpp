@@ -68,8 +68,6 @@ SkinField::SkinField(const Body& body) {
 }
 
 SkinField::~SkinField() = default;
-SkinField::SkinField(SkinField&&) noexcept = default;
-SkinField& SkinField::operator=(SkinField&&) noexcept = default;
 
 bool SkinField::follows(JointId joint) const {
   return vertices_ && joint.value < vertices_->followed.size() && vertices_->followed[joint.value];

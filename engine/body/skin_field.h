@@ -17,8 +17,7 @@ class SkinField {
  public:
   explicit SkinField(const Body& body);
   ~SkinField();
-  SkinField(SkinField&&) noexcept;
-  SkinField& operator=(SkinField&&) noexcept;
+  SkinField(const SkinField&) = delete;
 
   /// Means over the nearest vertices that face away from p, so that the skin of an arm says nothing about the
   /// chest beside it.

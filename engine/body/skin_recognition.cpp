@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "body/bone_field.h"
@@ -26,8 +25,7 @@ std::vector<vec3> placesInFlesh(const Skeleton& skeleton) {
   Aabb box;
   for (const auto& joint : skeleton.joints) box.add(vec3(joint.restWorld[3]));
   if (box.empty()) return {};
-  const vec3 extent = box.extent();
-  const float size = std::max({extent.x, extent.y, extent.z});
+  const float size = box.size();
   std::vector<vec3> places;
   for (const auto& joint : skeleton.joints) {
     if (!joint.parent.valid()) continue;

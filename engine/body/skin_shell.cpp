@@ -27,14 +27,21 @@ SkinShell::Place SkinShell::look(vec3 p) const {
   const auto nearest = tree_.nearest(p);
   Place place{.nearest = nearest.point, .triangle = nearest.triangle, .depth = nearest.distance};
   if (nearest.triangle >= mesh_.triangles.size()) return place;
-  const uvec3 t = mesh_.triangles[nearest.triangle];
-  const vec3 a = mesh_.positions[t.x], b = mesh_.positions[t.y], c = mesh_.positions[t.z];
-  const vec3 normal = glm::cross(b - a, c - a);
+  const vec3 normal = mesh_.areaNormal(mesh_.triangles[nearest.triangle]);
   const float size = glm::length(normal);
   place.normal = size > 0 ? normal / size : vec3(0);
   const bool seemsInside = glm::dot(p - nearest.point, place.normal) <= 0;
   if (!seemsInside && !contains(p)) place.depth = -nearest.distance;
   return place;
+}
+
+std::optional<vec3> SkinShell::facing(vec3 p, vec3 normal, float cosine, float within) const {
+  const auto near = tree_.nearest(p, within);
+  if (near.triangle >= mesh_.triangles.size()) return std::nullopt;
+  const vec3 area = mesh_.areaNormal(mesh_.triangles[near.triangle]);
+  const float size = glm::length(area);
+  if (!(size > 0) || glm::dot(area / size, normal) < cosine) return std::nullopt;
+  return near.point;
 }
 
 }  // namespace vasa

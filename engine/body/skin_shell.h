@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+
 #include "body/body.h"
 #include "mesh/triangle_tree.h"
 #include "mesh/winding_number.h"
@@ -23,6 +25,9 @@ class SkinShell {
   /// Expected O(log n), as the next.
   Place look(vec3 p) const;
   bool contains(vec3 p) const;
+  /// The nearest place, if one is nearer than `within` and the surface faces there as a unit direction does,
+  /// by the least cosine.
+  std::optional<vec3> facing(vec3 p, vec3 normal, float cosine, float within) const;
 
   const TriangleMesh& mesh() const { return mesh_; }
 

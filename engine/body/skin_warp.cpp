@@ -1,7 +1,6 @@
 #include "body/skin_warp.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/parallel.h"
 
@@ -24,17 +23,9 @@ Wishes askAll(const TriangleMesh& skin, const std::vector<vec3>& normals, const 
               float farthest) {
   Wishes wishes{std::vector<vec3>(skin.positions.size(), vec3(0)),
                 std::vector<float>(skin.positions.size(), 0)};
-  const TriangleTree tree(target.mesh());
   parallelFor(skin.positions.size(), 64, [&](std::size_t v) {
-    const auto near = tree.nearest(skin.positions[v], farthest);
-    if (near.triangle >= target.mesh().triangles.size()) return;
-    const uvec3 t = target.mesh().triangles[near.triangle];
-    const vec3 a = target.mesh().positions[t.x];
-    const vec3 normal = glm::cross(target.mesh().positions[t.y] - a, target.mesh().positions[t.z] - a);
-    const float size = glm::length(normal);
-    if (!(size > 0) || glm::dot(normal / size, normals[v]) < kFacingSkin) return;
-    wishes.move[v] = near.point - skin.positions[v];
-    wishes.weight[v] = 1;
+    if (const auto there = target.facing(skin.positions[v], normals[v], kFacingSkin, farthest))
+      wishes.move[v] = *there - skin.positions[v], wishes.weight[v] = 1;
   });
   return wishes;
 }

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <map>
 
 #include "body/bowing.h"
 #include "core/parallel.h"
@@ -85,10 +84,7 @@ void sample(const Network& network, const Pieces& pieces, std::span<const vec4> 
     course.along.push_back(course.along.back() + glm::distance(course.places[i - 1], course.places[i]));
 }
 
-float endRadius(const Network& network, VesselEnd end) {
-  const auto own = network.pointsOf(network.vessel(end.vessel));
-  return end.last ? own.back().w : own.front().w;
-}
+float endRadius(const Network& network, VesselEnd end) { return network.points()[network.pointOf(end)].w; }
 
 vec3 placeAt(const Sampled& course, float along, std::size_t from) {
   from = std::min(from, course.along.size() - 2);
@@ -105,14 +101,10 @@ float VesselSlider::slidingLength(float radius) { return kSlidingLength * std::s
 
 VesselSlider::VesselSlider(const Network& network, const Binding* binding, std::span<const VesselHold> holds)
     : network_(&network) {
-  const auto nodeOf = [&](VesselEnd end) {
-    const Vessel& vessel = network.vessel(end.vessel);
-    return end.last ? vessel.end : vessel.start;
-  };
   // The end that a vessel's end goes on in: at a fork the two thickest, where the third is a side branch of
   // theirs.
   const auto onward = [&](VesselEnd end) -> std::optional<VesselEnd> {
-    const NodeId node = nodeOf(end);
+    const NodeId node = network.vessel(end.vessel).node(end.last);
     if (!node.valid() || network.node(node).host || network.node(node).endCount < 2) return std::nullopt;
     const auto at = network.ends(network.node(node));
     std::vector<VesselEnd> ends(at.begin(), at.end());
@@ -197,8 +189,7 @@ void VesselSlider::settleOrder() {
     for (const Piece& piece : courses_[c].pieces) courseOf[piece.vessel.value] = c;
   const auto radiusOf = [&](VesselEnd end) { return endRadius(network, end); };
   const auto holdOf = [&](VesselEnd end) -> Hold {
-    const Vessel& vessel = network.vessel(end.vessel);
-    const NodeId id = end.last ? vessel.end : vessel.start;
+    const NodeId id = network.vessel(end.vessel).node(end.last);
     if (!id.valid()) return {};
     const Node& node = network.node(id);
     if (node.host) return {true, node.host, std::nullopt};

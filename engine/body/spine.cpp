@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "math/direction.h"
+
 // Relative to rest, a joint's bone moves by M = world · restWorld⁻¹, its parent's by M₀. The joint adds
 // D = Q₀⁻¹ Q, taken apart as bend · twist about the link (both in rest axes), and each part is raised to the
 // share that has set in. Derivative of X(station(p)) p for a share φ(s): Q + s'(φ)·ω × (p − centre) ⊗ ∇s,
@@ -24,23 +26,7 @@ bool finite(const mat4& m) {
   return true;
 }
 
-vec3 direction(vec3 v) {
-  const float length = glm::length(v);
-  return length > 0 ? v / length : vec3(0);
-}
-
-struct TurnAndScale {
-  quat rotation;
-  float scale;
-};
-
-TurnAndScale turnAndScaleOf(const mat4& m) {
-  const mat3 a(m);
-  const float determinant = glm::determinant(a);
-  const vec3 x = direction(a[0]);
-  const vec3 y = direction(a[1] - glm::dot(a[1], x) * x);
-  return {glm::normalize(glm::quat_cast(mat3(x, y, glm::cross(x, y)))), std::cbrt(std::abs(determinant))};
-}
+float scaleOf(const mat4& m) { return std::cbrt(std::abs(glm::determinant(mat3(m)))); }
 
 struct AngleAxis {
   vec3 axis{1, 0, 0};
@@ -95,7 +81,7 @@ void chooseContinuations(SpineSet& spines) {
     const SpineJoint& joint = spines.joints[i];
     if (!joint.parent.valid()) continue;
     SpineJoint& parent = spines.joints[joint.parent.value];
-    const vec3 way = direction(joint.centre - parent.centre);
+    const vec3 way = directionOf(joint.centre - parent.centre);
     incoming[i] = way == vec3(0) ? incoming[joint.parent.value] : way;
     const float score = glm::dot(way, incoming[joint.parent.value]) +
                         kReachPreference * reach[i] / std::max(reach[joint.parent.value], 1e-9f);
@@ -121,7 +107,7 @@ void measureLinks(SpineSet& spines) {
     if (!end.valid()) continue;
     const vec3 way = spines.joints[end.value].centre - joint.centre;
     joint.link = glm::length(way);
-    joint.axis = direction(way);
+    joint.axis = directionOf(way);
     joint.spreadsTwist = end == joint.next;
   }
 }
@@ -168,11 +154,11 @@ void SpinePose::run(const SpineSet& spines, const Pose& pose) {
   assert(pose.world.size() == spines.joints.size() && motions_.size() == spines.joints.size());
   for (std::size_t i = 0; i < motions_.size(); ++i) {
     const SpineJoint& joint = spines.joints[i];
-    const TurnAndScale own = turnAndScaleOf(pose.world[i] * joint.restInverse);
+    const mat4 own = pose.world[i] * joint.restInverse;
     Motion& motion = motions_[i];
     motion.centre = joint.centre;
-    motion.after = own.rotation;
-    motion.scaleAfter = own.scale;
+    motion.after = rotationOf(own);
+    motion.scaleAfter = scaleOf(own);
     motion.centreAfter = vec3(pose.world[i][3]);
     if (joint.parent.valid()) {
       const Motion& above = motions_[joint.parent.value];
@@ -228,16 +214,16 @@ vec3 SpinePose::placeAfter(JointId joint, vec3 p) const {
 vec3 bendOf(const SpineSet& spines, const Pose& pose, JointId id) {
   const SpineJoint& joint = spines.joints[id.value];
   if (!joint.parent.valid()) return vec3(0);
-  const quat own = turnAndScaleOf(pose.world[id.value] * joint.restInverse).rotation;
+  const quat own = rotationOf(pose.world[id.value] * joint.restInverse);
   const SpineJoint& parent = spines.joints[joint.parent.value];
-  const quat before = turnAndScaleOf(pose.world[joint.parent.value] * parent.restInverse).rotation;
+  const quat before = rotationOf(pose.world[joint.parent.value] * parent.restInverse);
   const quat turn = glm::conjugate(before) * own;
   if (joint.axis == vec3(0)) {
     const AngleAxis whole = angleAxis(turn);
     return 2 * whole.half * whole.axis;
   }
   const vec3 bent = turn * joint.axis, axis = glm::cross(joint.axis, bent);
-  return std::atan2(glm::length(axis), glm::dot(joint.axis, bent)) * direction(axis);
+  return std::atan2(glm::length(axis), glm::dot(joint.axis, bent)) * directionOf(axis);
 }
 
 }  // namespace vasa

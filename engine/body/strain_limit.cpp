@@ -1,7 +1,6 @@
 #include "body/strain_limit.h"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "body/point_tree.h"

@@ -39,7 +39,7 @@ class Fitter {
  public:
   Fitter(const TriangleMesh& surface, const SkinShell& skin,
          const std::function<float(const Similarity&)>& misplaced)
-      : skin_(skin), tree_(skin.mesh()), height_(skin.mesh().bounds().extent().y), misplaced_(misplaced) {
+      : skin_(skin), height_(skin.mesh().bounds().extent().y), misplaced_(misplaced) {
     const Aabb box = surface.bounds();
     centre_ = 0.5f * (box.low + box.high), extent_ = box.extent();
     const std::vector<vec3> normals = vertexNormals(surface);
@@ -113,14 +113,7 @@ class Fitter {
 
   // The nearest place of the skin, if it is near and faces as the sample does.
   std::optional<vec3> partnerOf(const Sample& sample, const Similarity& by, float within) const {
-    const auto near = tree_.nearest(by(sample.place), within);
-    if (near.triangle >= skin_.mesh().triangles.size()) return std::nullopt;
-    const uvec3 t = skin_.mesh().triangles[near.triangle];
-    const auto& at = skin_.mesh().positions;
-    const vec3 normal = glm::cross(at[t.y] - at[t.x], at[t.z] - at[t.x]);
-    const float size = glm::length(normal);
-    if (!(size > 0) || glm::dot(normal / size, by.turn * sample.normal) < kFacingSurface) return std::nullopt;
-    return near.point;
+    return skin_.facing(by(sample.place), by.turn * sample.normal, kFacingSurface, within);
   }
 
   void refine(Try& one, std::span<const Sample> samples, int steps) const {
@@ -160,7 +153,6 @@ class Fitter {
   }
 
   const SkinShell& skin_;
-  TriangleTree tree_;
   float height_;
   const std::function<float(const Similarity&)>& misplaced_;
   vec3 centre_{0}, extent_{0};

@@ -48,10 +48,6 @@ const Places& placesOf(std::uint32_t span, std::uint32_t spans) {
   return places[std::min(span, kNearEnds)][std::min(spans - 1 - span, kNearEnds)];
 }
 
-bool pinned(const Vessel& vessel, std::uint32_t point) {
-  return (point == 0 && vessel.start.valid()) || (point + 1 == vessel.pointCount && vessel.end.valid());
-}
-
 // @param weightOf  w_l r_l of the vessel's point l
 template <class Weight>
 Quadratic quadraticOf(const Vessel& vessel, std::span<const vec4> points, const Weight& weightOf) {
@@ -140,9 +136,9 @@ void VolumeKeeper::keep(VesselId id, std::span<vec4> points, std::span<const flo
     return most.empty() ? std::numeric_limits<float>::infinity() : most[vessel.firstPoint + l];
   };
   // A point that has come to its limit stays there, and the others share what it lacks.
-  const auto held = [&](std::uint32_t l) { return pinned(vessel, l) || own[l].w >= limit(l); };
+  const auto held = [&](std::uint32_t l) { return vessel.isPinned(l) || own[l].w >= limit(l); };
   for (std::uint32_t l = 0; l < vessel.pointCount && !most.empty(); ++l)
-    if (!pinned(vessel, l)) own[l].w = std::min(own[l].w, limit(l));
+    if (!vessel.isPinned(l)) own[l].w = std::min(own[l].w, limit(l));
   for (bool settled = false; !settled;) {
     settled = true;
     const Quadratic q = quadraticOf(vessel, own, [&](std::uint32_t l) { return held(l) ? 0.0f : own[l].w; });

@@ -1,8 +1,5 @@
 #include "mesh/polygon.h"
 
-#include <algorithm>
-#include <cmath>
-
 // An ear is a corner that turns outward and whose triangle holds no corner that turns inward. Cutting one
 // changes only its two neighbours, so each corner is looked at three times at most.
 namespace vasa {

@@ -27,8 +27,7 @@ double TriangleMesh::volume() const {
 std::vector<vec3> vertexNormals(const TriangleMesh& mesh) {
   std::vector<vec3> normals(mesh.positions.size(), vec3(0));
   for (const uvec3& t : mesh.triangles) {
-    const vec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
-    const vec3 weighted = glm::cross(b - a, c - a);
+    const vec3 weighted = mesh.areaNormal(t);
     for (int corner = 0; corner < 3; ++corner) normals[t[corner]] += weighted;
   }
   for (vec3& normal : normals) {

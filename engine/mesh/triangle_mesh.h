@@ -1,5 +1,4 @@
 #pragma once
-#include <cstdint>
 #include <vector>
 
 #include "math/aabb.h"
@@ -13,6 +12,10 @@ struct TriangleMesh {
 
   bool empty() const { return triangles.empty(); }
   Aabb bounds() const;
+  /// At right angles to a triangle, outward, twice its area long.
+  vec3 areaNormal(const uvec3& t) const {
+    return glm::cross(positions[t.y] - positions[t.x], positions[t.z] - positions[t.x]);
+  }
   /// Total area [m²].
   double area() const;
   /// Volume enclosed by a closed, outward-oriented mesh [m³] (divergence theorem).

@@ -56,8 +56,7 @@ void TriangleTree::split(std::uint32_t node, std::uint32_t first, std::uint32_t 
   }
   nodes_[node] = {box, first, count};
   if (count <= kLeafSize) return;
-  const vec3 extent = centres.extent();
-  const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+  const int axis = centres.longestAxis();
   const std::uint32_t half = count / 2;
   const auto begin = order_.begin() + first;
   std::nth_element(begin, begin + half, begin + count, [&](std::uint32_t a, std::uint32_t b) {

@@ -25,8 +25,7 @@ WindingNumber::WindingNumber(std::span<const vec3> positions, std::span<const uv
 void WindingNumber::halve(std::span<Triangle> triangles) {
   Aabb box;
   for (const auto& [a, b, c] : triangles) box.add(a + b + c);
-  const vec3 extent = box.extent();
-  const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+  const int axis = box.longestAxis();
   std::ranges::nth_element(triangles, triangles.begin() + std::ptrdiff_t(triangles.size() / 2), {},
                            [&](const Triangle& t) { return t.a[axis] + t.b[axis] + t.c[axis]; });
 }

@@ -1,7 +1,6 @@
 #pragma once
 #include <memory>
 #include <span>
-#include <vector>
 
 #include "body/body.h"
 #include "collide/contact.h"

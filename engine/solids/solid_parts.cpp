@@ -1,15 +1,14 @@
 #include "solids/solid_parts.h"
 
-#include <algorithm>
+#include <map>
 #include <optional>
-#include <utility>
 
 #include "body/mesh_role.h"
 #include "core/bytes.h"
 #include "core/hash.h"
-#include "core/ids.h"
 #include "core/kept.h"
 #include "core/parallel.h"
+#include "mesh/components.h"
 
 namespace vasa {
 namespace {
@@ -24,38 +23,18 @@ SolidParts::SolidParts(const Body& body) {
 }
 
 void SolidParts::add(const SkinnedMesh& mesh) {
-  const auto jointOf = [&](const uvec3& triangle) -> std::uint32_t {
-    const SkinInfluence& influence = mesh.influences[triangle.x];
-    return influence.joints[influence.heaviest()];
-  };
-  std::vector<uvec3> triangles = mesh.mesh.triangles;
-  std::ranges::stable_sort(triangles, {}, jointOf);
-  struct Number {
-    std::size_t part;
-    std::uint32_t vertex;
-  };
-  std::vector<Number> numbers(mesh.mesh.positions.size());  // the vertex in the last part that has it
-  std::uint32_t last = kNone;
-  for (uvec3 triangle : triangles) {
-    if (const std::uint32_t joint = jointOf(triangle); std::exchange(last, joint) != joint)
-      parts_.push_back({joint, {}, {}});
-    Part& part = parts_.back();
-    for (int k = 0; k < 3; ++k) {
-      Number& number = numbers[triangle[k]];
-      if (number.part != parts_.size()) {
-        number = {parts_.size(), std::uint32_t(part.positions.size())};
-        part.positions.push_back(mesh.mesh.positions[triangle[k]]);
-      }
-      triangle[k] = number.vertex;
-    }
-    part.triangles.push_back(triangle);
+  std::map<std::uint32_t, std::vector<std::uint32_t>> trianglesOf;  // of each joint
+  for (std::uint32_t t = 0; t < mesh.mesh.triangles.size(); ++t) {
+    const SkinInfluence& influence = mesh.influences[mesh.mesh.triangles[t].x];
+    trianglesOf[influence.joints[influence.heaviest()]].push_back(t);
   }
+  for (const auto& [joint, triangles] : trianglesOf) parts_.push_back({joint, partOf(mesh.mesh, triangles)});
 }
 
 std::uint64_t SolidParts::key() const {
   std::uint64_t key = parts_.size();
   for (const Part& part : parts_)
-    key = hashOf(std::span(part.triangles), hashOf(std::span(part.positions), key));
+    key = hashOf(std::span(part.mesh.triangles), hashOf(std::span(part.mesh.positions), key));
   return key;
 }
 
@@ -64,7 +43,7 @@ std::vector<DistanceField> SolidParts::fields() const {
   if (const auto kept = findKept(kKind, key())) {
     ByteReader in(*kept);
     for (const Part& part : parts_) {
-      auto field = DistanceField::restored(part.positions, part.triangles, {}, in);
+      auto field = DistanceField::restored(part.mesh.positions, part.mesh.triangles, {}, in);
       if (!field) break;
       fields.push_back(std::move(*field));
     }
@@ -73,7 +52,7 @@ std::vector<DistanceField> SolidParts::fields() const {
   fields.clear();
   std::vector<std::optional<DistanceField>> made(parts_.size());
   parallelFor(parts_.size(), 1, [&](std::size_t k) {
-    made[k].emplace(parts_[k].positions, parts_[k].triangles, DistanceField::Options{});
+    made[k].emplace(parts_[k].mesh.positions, parts_[k].mesh.triangles, DistanceField::Options{});
   });
   for (auto& field : made) fields.push_back(std::move(*field));
   return fields;

@@ -27,8 +27,7 @@ class SolidParts {
  private:
   struct Part {
     std::uint32_t joint = 0;
-    std::vector<vec3> positions;  // [m] as bound
-    std::vector<uvec3> triangles;
+    TriangleMesh mesh;  // [m] as bound
   };
   void add(const SkinnedMesh& mesh);
 

@@ -1,4 +1,4 @@
-#include "body/clip_end.h"
+#include "body/clip.h"
 
 #include <doctest/doctest.h>
 
