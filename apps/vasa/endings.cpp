@@ -4,11 +4,9 @@
 #include <time.h>
 #include <unistd.h>
 
-#include <cstring>
 #include <exception>
 #include <new>
 #include <string_view>
-#include <system_error>
 
 #include "core/log.h"
 

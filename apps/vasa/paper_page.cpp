@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "io/base64.h"
 #include "io/png.h"
 #include "page.h"

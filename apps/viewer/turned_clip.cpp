@@ -4,8 +4,6 @@
 
 #include <glm/gtx/matrix_decompose.hpp>
 
-#include "body/clip_end.h"
-
 namespace vasa::viewer {
 namespace {
 

@@ -1,7 +1,5 @@
 #include "viewer/undo_history.h"
 
-#include <algorithm>
-
 namespace vasa::viewer {
 namespace {
 

@@ -137,13 +137,20 @@ class Parser {
         for (const auto& entry : settings) known.append(known.empty() ? "" : ", ").append(entry.first);
         return fault(line.number, inQuotes(line.words[i]) + " is not known here; use " + known);
       }
-      const Setting& setting = found->second;
-      const auto read = i + 1 < line.words.size() ? numberIn(line.words[i + 1]) : std::nullopt;
-      if (!read || *read < setting.low || *read > setting.high)
-        return fault(line.number, inQuotes(line.words[i]) + " wants a number from " +
-                                      shortNumber(setting.low) + " to " + shortNumber(setting.high));
-      *setting.value = *read;
+      const auto number = i + 1 < line.words.size() ? line.words[i + 1] : std::string_view();
+      if (auto set = take(found->second, number, line, line.words[i]); !set) return set;
     }
+    return {};
+  }
+
+  // @param word  what the line sets
+  Result<void> take(const Setting& setting, std::string_view number, const RuleLine& line,
+                    std::string_view word) const {
+    const auto read = numberIn(number);
+    if (!read || *read < setting.low || *read > setting.high)
+      return fault(line.number, inQuotes(word) + " wants a number from " + shortNumber(setting.low) + " to " +
+                                    shortNumber(setting.high));
+    *setting.value = *read;
     return {};
   }
 
@@ -209,12 +216,7 @@ class Parser {
       const auto module = modules.find(word[0]);
       if (module == modules.end())
         return fault(line.number, inQuotes(word) + " is no module; use @place !weight, then one letter");
-      const Setting& setting = module->second;
-      const auto read = numberIn(word.substr(1));
-      if (!read || *read < setting.low || *read > setting.high)
-        return fault(line.number, inQuotes(word) + " wants a number from " + shortNumber(setting.low) +
-                                      " to " + shortNumber(setting.high));
-      *setting.value = *read;
+      if (auto set = take(module->second, word.substr(1), line, word); !set) return set.error();
     }
     branch.letter = line.words[end - 1];
     return branch;

@@ -53,9 +53,7 @@ float PosedBones::distance(vec3 place) const {
 
 float boneGap(const PosedBones& bones, JointId joint, std::optional<float> level, const Network& network,
               const VesselPath& path, std::span<const vec4> points) {
-  std::vector<vec4> places;
-  for (const VesselPath::Station& station : path.stations)
-    places.push_back(evaluate(Network::pointsOf(network.vessel(station.vessel), points), station.parameter));
+  std::vector<vec4> places = path.places(network, points);
   if (level) {
     const Skeleton::Joint& limb = bones.body().skeleton.joints[joint.value];
     const mat4 toRest = limb.restWorld * glm::inverse(bones.pose().world[joint.value]);

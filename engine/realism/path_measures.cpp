@@ -11,13 +11,6 @@ namespace {
 
 constexpr std::size_t kBendStep = 5, kWindow = 10;  // stations, a millimetre apart
 
-std::vector<vec4> placesOf(const Network& network, const VesselPath& path, std::span<const vec4> points) {
-  std::vector<vec4> places;
-  for (const VesselPath::Station& station : path.stations)
-    places.push_back(evaluate(Network::pointsOf(network.vessel(station.vessel), points), station.parameter));
-  return places;
-}
-
 quat turnAt(const Network& network, const VesselPath::Station& station, std::span<const quat> rotations) {
   const Vessel& vessel = network.vessel(station.vessel);
   const auto [span, t] = locate(station.parameter, vessel.spanCount());
@@ -78,8 +71,7 @@ std::vector<float> lengthsOf(std::span<const vec4> places) {
 
 PathMeasures measurePath(const Network& network, const VesselPath& path, std::span<const vec4> points,
                          std::span<const quat> rotations) {
-  const std::vector<vec4> rest = placesOf(network, path, network.points()),
-                          posed = placesOf(network, path, points);
+  const std::vector<vec4> rest = path.places(network, network.points()), posed = path.places(network, points);
   const std::vector<float> restAlong = lengthsOf(rest), along = lengthsOf(posed);
   const std::size_t last = posed.size() - 1;
   PathMeasures measures;

@@ -9,32 +9,30 @@ namespace vasa {
 namespace {
 
 struct MetricWords {
-  PoseMetric metric;
   std::string_view name, unit;
 };
+// By PoseMetric.
 constexpr std::array kMetrics{
-    MetricWords{PoseMetric::lengthChange, "length_change_percent", "%"},
-    MetricWords{PoseMetric::lengthChangeMm, "length_change_mm", "mm"},
-    MetricWords{PoseMetric::greatestShortening, "greatest_shortening_percent", "%"},
-    MetricWords{PoseMetric::twist, "twist_degrees", "degrees"},
-    MetricWords{PoseMetric::twistPerCm, "twist_degrees_per_cm", "degrees/cm"},
-    MetricWords{PoseMetric::greatestTwistPerCm, "greatest_twist_degrees_per_cm", "degrees/cm"},
-    MetricWords{PoseMetric::curvatureChange, "curvature_change_per_cm", "1/cm"},
-    MetricWords{PoseMetric::curvatureChangePercent, "curvature_change_percent", "%"},
-    MetricWords{PoseMetric::leastBendRadius, "least_bend_radius_mm", "mm"},
-    MetricWords{PoseMetric::chordByArc, "chord_by_arc_percent", "%"},
-    MetricWords{PoseMetric::boneDistanceChange, "bone_distance_change_mm", "mm"},
-    MetricWords{PoseMetric::forkAngleChange, "fork_angle_change_percent", "%"},
-    MetricWords{PoseMetric::radiusChange, "radius_change_percent", "%"},
+    MetricWords{"length_change_percent", "%"},
+    MetricWords{"length_change_mm", "mm"},
+    MetricWords{"greatest_shortening_percent", "%"},
+    MetricWords{"twist_degrees", "degrees"},
+    MetricWords{"twist_degrees_per_cm", "degrees/cm"},
+    MetricWords{"greatest_twist_degrees_per_cm", "degrees/cm"},
+    MetricWords{"curvature_change_per_cm", "1/cm"},
+    MetricWords{"curvature_change_percent", "%"},
+    MetricWords{"least_bend_radius_mm", "mm"},
+    MetricWords{"chord_by_arc_percent", "%"},
+    MetricWords{"bone_distance_change_mm", "mm"},
+    MetricWords{"fork_angle_change_percent", "%"},
+    MetricWords{"radius_change_percent", "%"},
 };
 
-const MetricWords& wordsOf(PoseMetric metric) {
-  return *std::ranges::find(kMetrics, metric, &MetricWords::metric);
-}
+const MetricWords& wordsOf(PoseMetric metric) { return kMetrics[std::size_t(metric)]; }
 
 Result<PoseMetric> metricNamed(std::string_view name) {
   const auto found = std::ranges::find(kMetrics, name, &MetricWords::name);
-  if (found != kMetrics.end()) return found->metric;
+  if (found != kMetrics.end()) return PoseMetric(found - kMetrics.begin());
   std::string known;
   for (const MetricWords& words : kMetrics) known += (known.empty() ? "" : ", ") + std::string(words.name);
   return badInput(csv::quoted(name) + " is no metric; there are " + known);

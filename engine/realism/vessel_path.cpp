@@ -15,6 +15,13 @@ constexpr float kStep = 1e-3f;  // [m] finer than any published figure
 
 }  // namespace
 
+std::vector<vec4> VesselPath::places(const Network& network, std::span<const vec4> points) const {
+  std::vector<vec4> places;
+  for (const Station& station : stations)
+    places.push_back(evaluate(Network::pointsOf(network.vessel(station.vessel), points), station.parameter));
+  return places;
+}
+
 PathFinder::PathFinder(const Network& network) : network_(&network), routes_(network, network.points()) {}
 
 Result<VesselPlace> PathFinder::landmark(std::string_view text) const {

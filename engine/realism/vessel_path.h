@@ -16,7 +16,8 @@ struct VesselPath {
   };
   std::vector<Station> stations;  ///< a millimetre apart, from landmark to landmark
 
-  float restLength() const { return stations.back().rest; }
+  /// Where they are in a pose. @param points  as Network::points()
+  std::vector<vec4> places(const Network& network, std::span<const vec4> points) const;
 };
 
 /// Finds stretches by the names of what bounds them.

@@ -1,7 +1,6 @@
 #include "repair/rest_parting.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "avoid/side_places.h"
 #include "math/direction.h"

@@ -45,8 +45,7 @@ HeartBeat::HeartBeat(const Scene& scene) {
   const auto points = scene.network.points();
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     const float away = (glm::distance(vec3(points[i]), centre_) / radius - kHeld) / (kFree - kHeld);
-    const float t = std::clamp(1 - away, 0.0f, 1.0f);
-    if (t > 0) followers_.push_back({i, t * t * (3 - 2 * t)});
+    if (away < 1) followers_.push_back({i, glm::smoothstep(0.0f, 1.0f, 1 - away)});
   }
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "body/clip_end.h"
 #include "core/cancellation.h"
 #include "core/clock.h"
 #include "core/log.h"

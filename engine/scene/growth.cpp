@@ -126,10 +126,9 @@ std::vector<vec3> placesOf(std::span<const vec4> points) {
 std::uint64_t keyOf(const Body& body, const GrowthRules& rules, const std::vector<GrowthRegion>& regions,
                     const Organs& organs, std::span<const char> feeds, const BedWish& wish,
                     const std::vector<Looked>& looked) {
-  std::uint64_t key = hashOf(std::span(&rules.tables, 1));
+  std::uint64_t key = hashed(rules.tables, 0);
   for (const GrowthRegion& region : regions) {
-    const std::array<float, 3> numbers{float(region.system), region.bed, region.inBone ? 1.0f : 0.0f};
-    key = hashOf(std::span<const float>(numbers), key);
+    key = hashed(std::array{float(region.system), region.bed, region.inBone ? 1.0f : 0.0f}, key);
   }
   for (const SkinnedMesh& mesh : body.meshes) {
     if (&mesh != skinOf(body) && !isSolid(mesh)) continue;
@@ -137,15 +136,13 @@ std::uint64_t keyOf(const Body& body, const GrowthRules& rules, const std::vecto
   }
   for (std::size_t i = 0; i < organs.rooms.size(); ++i) {
     const SkinnedMesh& mesh = *organs.rooms[i].mesh;
-    const std::array<float, 2> numbers{organs.rooms[i].wall, float(organs.regions[i])};
-    key = hashOf(std::span<const float>(numbers), key);
+    key = hashed(std::array{organs.rooms[i].wall, float(organs.regions[i])}, key);
     key = hashOf(std::span(mesh.mesh.triangles), hashOf(std::span(mesh.mesh.positions), key));
   }
-  for (const Looked& one : looked) {
-    const std::array<std::uint32_t, 3> numbers{one.region, one.source,
-                                               std::uint32_t(one.side) | std::uint32_t(one.againstFlow) << 1};
-    key = hashOf(std::span<const std::uint32_t>(numbers), key);
-  }
+  for (const Looked& one : looked)
+    key = hashed(std::array{std::uint32_t(one.region), std::uint32_t(one.source),
+                            std::uint32_t(one.side) | std::uint32_t(one.againstFlow) << 1},
+                 key);
   key = hashOf(feeds, key);
   return hashOf(wish.spans, hashOf(wish.rest.knotFrames, hashOf(wish.rest.points, key)));
 }
@@ -154,8 +151,6 @@ bool restore(std::span<const std::byte> bytes, CapillaryBeds& beds) {
   ByteReader in(bytes);
   return in.takeAll(beds.beds) && in.takeAll(beds.regionOfBed) && beds.beds.size() == beds.regionOfBed.size();
 }
-
-}  // namespace
 
 CapillaryBeds growthBeds(const Scene& scene, const GrowthRules& rules,
                          const std::vector<GrowthRegion>& regions, const SweepTable& table) {
@@ -212,9 +207,7 @@ CapillaryBeds growthBeds(const Scene& scene, const GrowthRules& rules,
   return beds;
 }
 
-Result<SceneGrowth> loadGrowth(const Scene& scene, const std::filesystem::path& folder) {
-  return loadGrowth(scene, folder, makeSweepTable(scene.network));
-}
+}  // namespace
 
 Result<SceneGrowth> loadGrowth(const Scene& scene, const std::filesystem::path& folder,
                                const SweepTable& table) {

@@ -19,14 +19,9 @@ struct SceneGrowth : Growth {
 /// @param table  makeSweepTable() of the scene's network
 Result<SceneGrowth> loadGrowth(const Scene& scene, const std::filesystem::path& folder,
                                const SweepTable& table);
-Result<SceneGrowth> loadGrowth(const Scene& scene, const std::filesystem::path& folder);
 
 /// The two halves of it: reading, which may fail, and settling what grows where, which takes longer.
 Result<SceneGrowth> readGrowth(const std::filesystem::path& folder);
 void settleGrowth(SceneGrowth& growth, const Scene& scene, const SweepTable& table);
-
-/// The same from rules at hand.
-CapillaryBeds growthBeds(const Scene& scene, const GrowthRules& rules,
-                         const std::vector<GrowthRegion>& regions, const SweepTable& table);
 
 }  // namespace vasa

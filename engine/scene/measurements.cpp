@@ -16,14 +16,11 @@ VesselMeasures measureVessel(std::span<const vec4> points) {
     const Bezier segment = bezierOfSpan(points, span);
     for (int k = 0; k <= kPerSpan; ++k) {
       const float t = float(k) / kPerSpan, radius = segment.at(t).w;
-      const vec3 first(segment.derivative(t)), second(segment.secondDerivative(t));
-      const float speed = glm::length(first);
+      const float speed = glm::length(vec3(segment.derivative(t)));
       out.leastRadius = std::min(out.leastRadius, radius);
       out.greatestRadius = std::max(out.greatestRadius, radius);
       sum += double(speed * radius), weight += double(speed);
-      if (speed > 1e-9f)
-        out.greatestCurvature =
-            std::max(out.greatestCurvature, glm::length(glm::cross(first, second)) / (speed * speed * speed));
+      out.greatestCurvature = std::max(out.greatestCurvature, segment.curvature(t));
     }
   }
   out.meanRadius = weight > 0 ? float(sum / weight) : out.leastRadius;

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "body/clip_end.h"
 #include "core/atomic_file.h"
 #include "core/bytes.h"
 #include "core/hash.h"
@@ -57,11 +56,6 @@ bool takeFrame(ByteReader& reader, const Header& header, TrackFrame& frame) {
     frame.narrowed.push_back(own);
   }
   return true;
-}
-
-template <class T>
-std::uint64_t hashed(const T& value, std::uint64_t hash) {
-  return hashOf(std::span<const T>(&value, 1), hash);
 }
 
 std::uint64_t hashOfFile(Header header, std::span<const std::byte> frames) {

@@ -1,11 +1,14 @@
 #include "scene/scene_file.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <ranges>
 
 #include "core/atomic_file.h"
 #include "core/text_file.h"
@@ -38,9 +41,8 @@ class Reader {
       const auto field = fields.find(key);
       const std::string where = place + "/" + key;
       if (field == fields.end()) {
-        std::string known;
-        for (const auto& entry : fields) known += (known.empty() ? "" : ", ") + entry.first;
-        return fail(where, "is not a known key; use one of " + known);
+        return fail(where, fmt::format("is not a known key; use one of {}",
+                                       fmt::join(fields | std::views::keys, ", ")));
       }
       field->second(item, where);
     }
@@ -114,6 +116,12 @@ class Reader {
       }
     };
   }
+  // Of words, the last of which is told behind "or".
+  template <std::size_t count>
+  void oneOf(const std::string& word, const std::string_view (&known)[count], const std::string& place) {
+    if (std::ranges::find(known, word) != std::end(known)) return;
+    fail(place, fmt::format("must be {} or {}", fmt::join(known, known + count - 1, ", "), known[count - 1]));
+  }
   void fail(const std::string& place, const std::string& rule) {
     if (!fault) fault = BrokenRule{place, rule};
   }
@@ -135,9 +143,7 @@ void readCamera(Reader& reader, const Json& value, const std::string& place, Cam
                  {"distance", reader.number(camera.distanceFactor, 0.01f, 100)},
                  {"orthographic", reader.flag(camera.orthographic)},
                  {"focus", reader.text(camera.focus)}});
-  constexpr std::array kViews{"front", "back", "left", "right", "top"};
-  if (std::find(kViews.begin(), kViews.end(), camera.view) == kViews.end())
-    reader.fail(place + "/view", "must be front, back, left, right or top");
+  reader.oneOf(camera.view, {"front", "back", "left", "right", "top"}, place + "/view");
 }
 
 void readCapillaries(Reader& reader, const Json& value, const std::string& place,
@@ -173,12 +179,9 @@ void readLook(Reader& reader, const Json& value, const std::string& place, LookC
        {"capillary_opacity", reader.number(look.opacity.capillaries, 0, 1)},
        {"colour", reader.text(look.colour)},
        {"legend", reader.flag(look.legend)}});
-  constexpr std::array kPresets{"atlas", "clinical", "xray"};
-  if (std::find(kPresets.begin(), kPresets.end(), look.preset) == kPresets.end())
-    reader.fail(place + "/preset", "must be atlas, clinical or xray");
-  constexpr std::array kColours{"kind", "blood", "region", "radius", "strain", "bend", "lumen"};
-  if (std::find(kColours.begin(), kColours.end(), look.colour) == kColours.end())
-    reader.fail(place + "/colour", "must be kind, blood, region, radius, strain, bend or lumen");
+  reader.oneOf(look.preset, {"atlas", "clinical", "xray"}, place + "/preset");
+  reader.oneOf(look.colour, {"kind", "blood", "region", "radius", "strain", "bend", "lumen"},
+               place + "/colour");
 }
 
 void readViews(Reader& reader, const Json& value, const std::string& place, std::vector<ViewChoice>& views) {

@@ -26,14 +26,16 @@
 namespace vasa {
 namespace {
 
-bool isVtk(const std::string& extension) { return extension == ".vtp" || extension == ".vtk"; }
+bool isVtk(const std::filesystem::path& path) {
+  return extensionOf(path) == ".vtp" || extensionOf(path) == ".vtk";
+}
 
 Result<std::vector<MeshElement>> readElements(const std::filesystem::path& path, const ImportFrame& frame) {
   const std::string extension = extensionOf(path);
-  if (extension == ".glb" || extension == ".gltf") return readGltfElements(path);
+  if (isGltfFile(path)) return readGltfElements(path);
   if (extension == ".obj") return readObj(path, frame);
   if (extension == ".stl") return readStl(path, frame);
-  if (extension == ".vtp" || extension == ".vtk") return readVtkSurface(path, frame);
+  if (isVtk(path)) return readVtkSurface(path, frame);
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) {
     auto missing = readFile(path);  // says what it is instead
@@ -44,10 +46,6 @@ Result<std::vector<MeshElement>> readElements(const std::filesystem::path& path,
       path.string() +
           ": unknown kind of file; convert reads .glb, .gltf, .obj, .stl, .vtp, .vtk, .swc and .mrk.json" +
           remedyFor(path, FileUse::vessels)};
-}
-
-float largest(const Aabb& bounds) {
-  return bounds.empty() ? 0 : std::max({bounds.extent().x, bounds.extent().y, bounds.extent().z});
 }
 
 float farthest(const Aabb& bounds) { return bounds.empty() ? 0 : bounds.distance(vec3(0)); }
@@ -148,19 +146,19 @@ Aabb boundsOf(const Centrelines& lines) {
 }
 
 double likelyUnit(const Aabb& bounds) {
-  return largest(bounds) > kTallestBody || farthest(bounds) > kFarthestBody ? 0.001 : 1;
+  return bounds.size() > kTallestBody || farthest(bounds) > kFarthestBody ? 0.001 : 1;
 }
 
 std::string sizeInMetres(const Aabb& bounds) {
-  return largest(bounds) > kTallestBody
-             ? fmt::format("they would be {:.0f} m large", largest(bounds))
+  return bounds.size() > kTallestBody
+             ? fmt::format("they would be {:.0f} m large", bounds.size())
              : fmt::format("they would lie {:.0f} m from the origin", farthest(bounds));
 }
 
 bool holdsSurfaces(const std::filesystem::path& path) {
   const std::string extension = extensionOf(path);
-  return extension == ".glb" || extension == ".gltf" || extension == ".obj" || extension == ".stl" ||
-         (isVtk(extension) && vtkContent(path) != VtkContent::lines);
+  return isGltfFile(path) || extension == ".obj" || extension == ".stl" ||
+         (isVtk(path) && vtkContent(path) != VtkContent::lines);
 }
 
 Result<bool> holdsSurfacesAlone(const std::filesystem::path& path) {
@@ -179,9 +177,8 @@ Result<bool> holdsSurfacesAlone(const std::filesystem::path& path) {
 }
 
 bool holdsCentrelines(const std::filesystem::path& path) {
-  const std::string extension = extensionOf(path);
-  return extension == ".swc" || isMarkupsFile(path) ||
-         (isVtk(extension) && vtkContent(path) == VtkContent::lines);
+  return extensionOf(path) == ".swc" || isMarkupsFile(path) ||
+         (isVtk(path) && vtkContent(path) == VtkContent::lines);
 }
 
 Result<std::vector<SourceElement>> readSurfaces(const std::filesystem::path& path,

@@ -106,9 +106,7 @@ class Planner {
     float low, high;
   };
 
-  bool isBranch(std::uint32_t end) const {
-    return lines_.ends[end / 2][end % 2].kind == LineEnd::Kind::branch;
-  }
+  bool isBranch(std::uint32_t end) const { return lines_.ends[end / 2][end % 2].isBranch; }
 
   // What a branch leaves: its host, or what that one's end leaves.
   const LineEnd& leftBy(std::uint32_t end) const {
@@ -496,7 +494,6 @@ ForkPlan planWithoutForks(const Network& network) {
 ForkPlan planForksAs(const Network& network, const ForkWays& before, ForkMemory& memory) {
   memory.trim();
   ForkPlan plan = Planner(network, before.apart, memory).runAs(before);
-  plan.report.bentJoins = std::uint32_t(before.apart.size());
   plan.ways = before;
   return plan;
 }
@@ -513,7 +510,6 @@ ForkPlan planForks(const Network& network, ForkMemory& memory) {
   for (;;) {
     Planner planner(network, apart, memory);
     ForkPlan plan = planner.run(shapes);
-    plan.report.bentJoins = std::uint32_t(apart.size());
     plan.ways.apart = apart;
     const std::size_t before = apart.size();
     for (const Planner::VesselPair& pair : planner.bent())

@@ -51,8 +51,6 @@ struct ForkPlan {
     std::uint32_t crowded = 0;   ///< find no room between their neighbours on the host
     /// Would have a fork that folds, at rest, however far out its collar ends.
     std::uint32_t folded = 0;
-    /// Joins that would fold at rest; one of the two vessels branches off the other instead.
-    std::uint32_t bentJoins = 0;
   };
   Report report;
   ForkWays ways;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include "surface/fork.h"
 #include "surface/octahedral.h"

@@ -18,10 +18,7 @@ constexpr float kFreedSoon = 4;
 constexpr float kSameSide = 0.8f;     // cosine: a normal that is so near to the surface's stays
 constexpr float kLeastArea = 1e-12f;  // [m2]
 
-float ramp(float x) {
-  const float t = std::clamp(x, 0.0f, 1.0f);
-  return t * t * (3.0f - 2.0f * t);
-}
+float ramp(float x) { return glm::smoothstep(0.0f, 1.0f, x); }
 
 vec3 carried(const shared::JointRows& joint, vec3 p) {
   const auto row = [p](const vec4& r) { return r.x * p.x + r.y * p.y + r.z * p.z + r.w; };

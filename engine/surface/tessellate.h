@@ -1,6 +1,5 @@
 #pragma once
 #include <span>
-#include <vector>
 
 #include "surface/section.h"
 #include "surface/sweep_table.h"

@@ -36,7 +36,7 @@ Arm armOf(const Network& network, const VesselEnd& end) {
   const Vessel& vessel = network.vessel(end.vessel);
   const auto points = network.pointsOf(vessel);
   const float spans = float(vessel.spanCount());
-  const vec4 start = end.last ? points.back() : points.front();
+  const vec4 start = network.points()[network.pointOf(end)];
   vec3 outward(0);
   for (int i = 1; i <= 32; ++i) {
     const float u = spans * float(i * i) / 1024.0f;
@@ -67,7 +67,7 @@ float wayBetween(std::span<const vec4> points, float from, float to) {
 
 std::optional<Double> doubleOf(const Network& network, const Vessel& vessel) {
   for (const bool last : {false, true}) {
-    const NodeId side = last ? vessel.end : vessel.start, tip = last ? vessel.start : vessel.end;
+    const NodeId side = vessel.node(last), tip = vessel.node(!last);
     if (!side.valid() || !tip.valid() || !network.node(side).host || network.node(tip).host) continue;
     const Host host = *network.node(side).host;
     const auto points = network.pointsOf(network.vessel(host.vessel));
@@ -162,9 +162,9 @@ std::optional<Beside> besideEnd(const Network& network, const Node& own) {
   const Vessel& vessel = network.vessel(host.vessel);
   const auto points = network.pointsOf(vessel);
   const bool last = host.parameter > 0.5f * float(vessel.spanCount());
-  const NodeId node = last ? vessel.end : vessel.start;
+  const NodeId node = vessel.node(last);
   const vec4 tip = last ? points.back() : points.front(), place = pointAt(network, host);
-  const float way = wayBetween(points, host.parameter, last ? float(vessel.spanCount()) : 0);
+  const float way = wayBetween(points, host.parameter, vessel.parameterOf(last));
   if (!node.valid()) return way > tip.w ? std::nullopt : std::optional<Beside>({{host.vessel, last}, kNone});
   float widest = 0;
   for (const VesselEnd& end : network.ends(own))
@@ -219,7 +219,7 @@ Host trunkOf(const Network& network, const Joiner& joiner, const Junction& junct
   const VesselEnd carrier = *std::ranges::max_element(junction.ends, {}, [&](const VesselEnd& end) {
     return (joined(end) ? 1e6f : 0.0f) + armOf(network, end).radius;
   });
-  return {carrier.vessel, carrier.last ? float(network.vessel(carrier.vessel).spanCount()) : 0};
+  return {carrier.vessel, network.vessel(carrier.vessel).parameterOf(carrier.last)};
 }
 
 }  // namespace
@@ -362,13 +362,12 @@ VesselLines makeVesselLines(const Network& network, std::span<const std::array<V
     const std::uint32_t line = lineOf[end.vessel.value], hostLine = lineOf[host.vessel.value];
     const VesselLine::Part& first = result.lines[line].parts().front();
     const bool atStart = first.vessel == end.vessel && first.reversed == end.last;
-    result.ends[line][atStart ? 0 : 1] = {LineEnd::Kind::branch, hostLine,
+    result.ends[line][atStart ? 0 : 1] = {true, hostLine,
                                           result.lines[hostLine].wayOf(host.vessel, host.parameter)};
   };
   for (const Junction& junction : junctions)
     for (const VesselEnd& end : junction.ends) {
-      const Vessel& vessel = network.vessel(end.vessel);
-      const NodeId node = end.last ? vessel.end : vessel.start;
+      const NodeId node = network.vessel(end.vessel).node(end.last);
       if (!node.valid()) continue;
       const auto& own = network.node(node).host;
       const Host& trunk = junction.trunk;

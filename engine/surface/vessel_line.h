@@ -61,11 +61,7 @@ class VesselLine {
 
 /// How the vessels of a network hang together for the eye.
 struct LineEnd {
-  enum class Kind {
-    free,   ///< nothing there: a cap
-    branch  ///< leaves the side of `host`
-  };
-  Kind kind = Kind::free;
+  bool isBranch = false;   ///< leaves the side of `host`; else nothing is there: a cap
   std::uint32_t host = 0;  ///< line
   float hostWay = 0;       ///< where on it the vessels meet
 };

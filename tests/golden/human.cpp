@@ -27,7 +27,7 @@ const Human& human() {
     file.networks = {VASA_GOLDEN_DATA "/human.vasa"};
     file.holds = VASA_GOLDEN_DATA "/human.holds.csv";
     Scene scene = taken(loadScene(file));
-    SceneGrowth growth = taken(loadGrowth(scene, VASA_GOLDEN_DATA "/growth"));
+    SceneGrowth growth = taken(loadGrowth(scene, VASA_GOLDEN_DATA "/growth", makeSweepTable(scene.network)));
     return Human{std::move(scene), std::move(growth)};
   }();
   return loaded;
