@@ -14,6 +14,7 @@ constexpr float kMostHingeTurn = 1.0f;
 // Cosine of 30 degrees: zero poses whose trunks differ by less once their sides point alike stand alike, as
 // bones' slant from hips to neck is each skeleton's own.
 constexpr float kSlant = 0.87f;
+constexpr float kHangs = 0.9f;  // cosine of 26 degrees
 
 std::optional<quat> turnOf(const std::optional<mat3>& from, const std::optional<mat3>& to) {
   if (!from || !to) return std::nullopt;
@@ -26,8 +27,16 @@ vec3 boneOf(const Rig& rig, std::uint32_t joint, std::string_view part) {
   return rig.boneEnd(joint, part, rig.centres, rig.tips).value_or(from) - from;
 }
 
-std::uint32_t toesOf(const Rig& rig, std::uint32_t foot) {
-  return rig.partNamed(std::string(rig.parts.of[foot].starts_with("left") ? "left" : "right") + "Toes");
+// Of a foot's leg.
+std::uint32_t besideFoot(const Rig& rig, std::uint32_t foot, std::string_view part) {
+  return rig.partNamed((rig.parts.of[foot].starts_with("left") ? "left" : "right") + std::string(part));
+}
+
+// Whether toes go on in the shin's line, as no foot that stands does.
+bool hangs(const Rig& rig, std::uint32_t foot, vec3 toToes) {
+  const std::uint32_t shin = besideFoot(rig, foot, "LowerLeg");
+  return shin != kNone &&
+         glm::dot(directionOf(toToes), directionOf(rig.centres[foot] - rig.centres[shin])) > kHangs;
 }
 
 // Along the fingers and towards the thumb; nothing where a hand has neither.
@@ -89,14 +98,15 @@ class Alignment {
     }
     const bool finger = part.find("Proximal") != part.npos || part.ends_with("Toes");
     if (finger) return above;
-    if (standing_ == MotionPose::kZero) return trunk;
-    // In a frame of the motion feet need not be flat: they are as their toes tell, else as the shin has them.
     if (!part.ends_with("Foot")) return trunk;
-    const std::uint32_t ownToes = toesOf(to_, j), toes = toesOf(from_, s);
-    if (ownToes == kNone || toes == kNone) return above;
-    return turnBetween(above * (to_.centres[ownToes] - to_.centres[j]),
-                       from_.centres[toes] - from_.centres[s]) *
-           above;
+    // Zero poses have feet flat, but for some whose toes hang. In a frame of the motion feet need not be
+    // flat: they are as their toes tell, else as the shin has them.
+    const bool zero = standing_ == MotionPose::kZero;
+    const std::uint32_t ownToes = besideFoot(to_, j, "Toes"), toes = besideFoot(from_, s, "Toes");
+    if (ownToes == kNone || toes == kNone) return zero ? trunk : above;
+    const vec3 foot = to_.centres[ownToes] - to_.centres[j], points = from_.centres[toes] - from_.centres[s];
+    if (zero && hangs(to_, j, foot) == hangs(from_, s, points)) return trunk;
+    return turnBetween(above * foot, points) * above;
   }
 
   // The turn about an upper arm that makes the elbow bend about the axis it is bent about at rest: no

@@ -59,7 +59,7 @@ TEST_CASE("motions in others' dialects move a body's limbs as theirs: names, zer
   const Body body = dollBody("cmu");
   for (const char* family : {"cmu", "biovision", "mixamo", "vrm", "makehuman", "bip", "daz", "smpl",
                              "prefixed", "asf", "motive", "kinect", "rigify", "numbered"})
-    for (const Zero zero : {Zero::t, Zero::a, Zero::i, Zero::oneAxis}) {
+    for (const Zero zero : {Zero::t, Zero::a, Zero::i, Zero::oneAxis, Zero::toesHang}) {
       const Retargeting done = carried({family, zero, 100, false, false}, body);
       const std::string what =
           std::string(family) + " " + std::to_string(int(zero)) + ": " + describeMatch(done);

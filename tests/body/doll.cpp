@@ -55,6 +55,8 @@ mat3 zeroTurn(const std::string& part, DollDialect::Zero zero) {
   const bool arm = has(part, "Arm") || has(part, "Hand");
   if (zero == DollDialect::Zero::a) return arm ? turnAbout({0, 0, 1}, -side * 45) : mat3(1);
   if (zero == DollDialect::Zero::i) return arm ? turnAbout({0, 0, 1}, -side * 88) : mat3(1);
+  if (zero == DollDialect::Zero::toesHang)  // in the shins' line
+    return has(part, "Foot") || has(part, "Toes") ? turnAbout({1, 0, 0}, 90) : mat3(1);
   if (zero == DollDialect::Zero::t || part == "hips" || part == "chest" || part.empty()) return mat3(1);
   const vec3 bone = glm::normalize(boneOf(indexOf(part)));  // along +Y, whatever it is
   const float cosine = bone.y;

@@ -11,7 +11,7 @@ namespace vasa::test {
 struct DollDialect {
   std::string family =
       "vrm";  ///< "cmu", "biovision", "mixamo", "vrm", "makehuman", "bip", "daz", "smpl", "numbered"
-  enum class Zero { t, a, i, oneAxis } zero = Zero::t;
+  enum class Zero { t, a, i, oneAxis, toesHang } zero = Zero::t;
   double unitsAMetre = 1;
   bool zUp = false;          ///< the whole file, rest and motion
   bool rootTurnsUp = false;  ///< the zero pose stands along +Y, the root's turns lay it along +Z
