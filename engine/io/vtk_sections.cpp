@@ -209,21 +209,32 @@ class SectionReader {
         continue;
       }
       const std::size_t components = count(name), rows = count(name);
+      if (components > 0 && rows > rest_.size() / components) breaks(name, "is cut short");
       const std::string told = lowerCase(word());
-      if (told == "string") breaks(name, "is of strings, which are not read; leave the array out");
+      if (told == "string") {  // a line each
+        if (binary_) breaks(name, "is of strings, which are not read; save as ASCII, or leave the array out");
+        for (std::size_t row = 0; row <= components * rows; ++row) line();
+        continue;
+      }
       const auto scalar = scalarOf(told);
       if (!scalar) breaks(name, "is of the type '" + told.substr(0, 40) + "', which is not read");
-      if (components > 0 && rows > rest_.size() / components) breaks(name, "is cut short");
       std::vector<double> values = numbers(components * rows, *scalar, name);
       if (components == 1) keep(name, std::move(values));
     }
   }
 
   void keep(const std::string& name, std::vector<double> values) {
-    if (!data_) return;
-    const auto [own, isNew] = places_[data_].emplace(name, data_->size());
-    if (isNew) data_->push_back({name, {}});
-    (*data_)[own->second].values = std::move(values);
+    auto* const data = data_ ? data_ : ofField(values.size());
+    if (!data) return;
+    const auto [own, isNew] = places_[data].emplace(name, data->size());
+    if (isNew) data->push_back({name, {}});
+    (*data)[own->second].values = std::move(values);
+  }
+  // Some programs write what belongs to points or cells as data of the whole: its length tells whose it is.
+  std::vector<Array>* ofField(std::size_t rows) {
+    std::size_t cells = 0;
+    for (const auto& [name, own] : out_.cells) cells += own.size();
+    return rows == out_.points.size() ? &out_.pointData : rows == cells ? &out_.cellData : nullptr;
   }
 
   void readAttribute(const std::string& kind) {

@@ -58,6 +58,11 @@ TEST_CASE("legacy VTK: radii of points under any name, and of lines") {
     return parsed->points[1].w;
   };
   CHECK(read("POINT_DATA 6\nSCALARS RADIUS float 1\nLOOKUP_TABLE default\n1 2 3 1 1 1\n") == 2);
+  // Data of the whole file, as some write them: their length tells whose they are.
+  CHECK(read("FIELD FieldData 1\nradius 1 6 float\n1 2 3 1 1 1\nMETADATA\nINFORMATION 0\n\n") == 2);
+  CHECK(read("FIELD FieldData 1\nradius 1 2 float\n2 4\n") == 3);
+  CHECK(read("CELL_DATA 2\nFIELD FieldData 2\nlabel 1 2 string\nthe%20first\n\nradius 1 2 float\n2 4\n") ==
+        3);
   CHECK(read("POINT_DATA 6\nFIELD f 2\nflow 1 6 float\n7 7 7 7 7 7\nDiameter 1 6 float\n2 4 6 1 1 1\n") == 2);
   CHECK(read("CELL_DATA 2\nSCALARS EdgeRadius float 1\nLOOKUP_TABLE default\n1 3\n") == 2);
   CHECK(read("POINT_DATA 6\nFIELD f 1\nMax%20Diameter%20(m) 1 6 float\n2 4 6 1 1 1\n") == 2);
