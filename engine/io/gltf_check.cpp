@@ -12,7 +12,28 @@ bool isHarmless(const std::string& extension) {
   // Understood: see checkMeshes and io/gltf_unpack.h.
   for (const char* known : {"KHR_mesh_quantization", "EXT_meshopt_compression", "KHR_draco_mesh_compression"})
     if (extension == known) return true;
-  for (const char* prefix : {"KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "KHR_xmp"})
+  for (const char* prefix : {"KHR_materials_",
+                             "KHR_texture_",
+                             "EXT_texture_",
+                             "KHR_lights_",
+                             "EXT_lights_",
+                             "KHR_xmp",
+                             "KHR_audio",
+                             "KHR_animation_pointer",
+                             "KHR_interactivity",
+                             "KHR_node_",
+                             "KHR_physics_",
+                             "EXT_structural_metadata",
+                             "EXT_mesh_features",
+                             "ADOBE_",
+                             "AGI_",
+                             "CESIUM_primitive_outline",
+                             "FB_",
+                             "GOOGLE_",
+                             "MOZ_",
+                             "MSFT_",
+                             "OMI_",
+                             "VRM"})
     if (extension.starts_with(prefix)) return true;
   return false;
 }

@@ -105,22 +105,6 @@ void checkIndices(const Asset& asset, const Model::Primitive& primitive, const s
            kExportAgain);
 }
 
-// Coarse where they are integers. A normal of no length has no direction: the triangles' is taken.
-void checkNormals(const Asset& asset, int accessor) {
-  if (!isStored(asset, accessor) || !hasData(asset, accessor)) return;
-  const float tolerance =
-      isFloatComponent(asset.model.accessors[std::size_t(accessor)].componentType) ? 0.01f : 0.02f;
-  const auto values = readFloats(asset, accessor);
-  for (std::size_t i = 0; i + 2 < values.size(); i += 3) {
-    const float length = glm::length(vec3(values[i], values[i + 1], values[i + 2]));
-    if (length > 0 && !(std::abs(length - 1) <= tolerance))
-      breaks(
-          accessorPlace(accessor),
-          "element " + std::to_string(i / 3) + " must be a unit vector, has length " + std::to_string(length),
-          "normalise the normals");
-  }
-}
-
 void checkWeights(const Asset& asset, int accessor) {
   if (!hasData(asset, accessor)) return;
   const auto weights = readFloats(asset, accessor);
@@ -165,17 +149,15 @@ void checkJoints(const Asset& asset, Largest& largest) {
 
 void checkMeshData(const Asset& asset) {
   Largest largest(asset);
-  std::set<int> weights, normals;
+  std::set<int> weights;
   for (std::size_t mesh = 0; mesh < asset.model.meshes.size(); ++mesh)
     for (std::size_t i = 0; i < asset.model.meshes[mesh].primitives.size(); ++i) {
       const auto& primitive = asset.model.meshes[mesh].primitives[i];
       checkIndices(asset, primitive, "/meshes/" + std::to_string(mesh) + "/primitives/" + std::to_string(i),
                    largest);
       weights.insert(primitive.weights.begin(), primitive.weights.end());
-      if (primitive.normal >= 0) normals.insert(primitive.normal);
     }
   for (const int accessor : weights) checkWeights(asset, accessor);
-  for (const int accessor : normals) checkNormals(asset, accessor);
   checkJoints(asset, largest);
 }
 
@@ -242,10 +224,13 @@ void checkQuaternions(const Asset& asset, int accessor, bool cubic) {
 }  // namespace
 
 void checkData(const Asset& asset) {
+  std::set<int> normals;  // any length will do, and none (io/gltf_geometry.cpp)
+  for (const auto& mesh : asset.model.meshes)
+    for (const auto& primitive : mesh.primitives) normals.insert(primitive.normal);
   for (int i = 0; i < int(asset.model.accessors.size()); ++i) {
     if (!hasData(asset, i)) continue;
     checkSparseOrder(asset, i);
-    checkValues(asset, i);
+    if (!normals.contains(i)) checkValues(asset, i);
   }
   checkMeshData(asset);
   checkInverseBinds(asset);

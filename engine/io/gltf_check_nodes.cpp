@@ -6,7 +6,8 @@
 namespace vasa::gltf {
 namespace {
 
-constexpr double kUnitTolerance = 0.01;  // exporters round; further off is an error and not rounding
+// Exporters round; further off is an error and not rounding.
+constexpr double kUnitTolerance = 0.01, kAffineTolerance = 1e-5;
 
 void checkTransform(const JsonView& node) {
   const auto translation = node.find("translation"), rotation = node.find("rotation"),
@@ -23,7 +24,8 @@ void checkTransform(const JsonView& node) {
     const auto m = matrix->numbers(16);
     if (translation || rotation || scale)
       matrix->fail("must not be given beside translation, rotation or scale");
-    if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1)
+    const auto off = [](double value, double wanted) { return std::abs(value - wanted) > kAffineTolerance; };
+    if (off(m[3], 0) || off(m[7], 0) || off(m[11], 0) || off(m[15], 1))
       matrix->fail("must be affine: the last row must be 0 0 0 1");
   }
 }

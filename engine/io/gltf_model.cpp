@@ -290,7 +290,8 @@ Model::Node nodeOf(const tinygltf::Node& node) {
 Model::Material materialOf(const tinygltf::Material& material) {
   Model::Material out{material.name, vec4(1), material.alphaMode == "BLEND"};
   const auto& factor = material.pbrMetallicRoughness.baseColorFactor;
-  for (std::size_t i = 0; i < factor.size(); ++i) out.baseColour[int(i)] = float(factor[i]);
+  for (std::size_t i = 0; i < factor.size(); ++i)
+    out.baseColour[int(i)] = float(std::clamp(factor[i], 0.0, 1.0));
   return out;
 }
 

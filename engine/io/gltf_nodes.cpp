@@ -10,7 +10,8 @@ namespace {
 mat4 localMatrix(const Model::Node& node) {
   if (!node.matrix.empty()) {
     mat4 matrix;
-    for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = node.matrix[std::size_t(i)];
+    for (int i = 0; i < 16; ++i)  // affine, whatever exporters round
+      matrix[i / 4][i % 4] = i % 4 < 3 ? node.matrix[std::size_t(i)] : float(i == 15);
     return matrix;
   }
   return node.transform.matrix();
