@@ -6,8 +6,6 @@
 namespace vasa {
 namespace {
 
-constexpr float kFarthestReach = 1000;  // [m]
-
 float lengthOfWay(vec3 v) { return glm::length(v); }
 float largestScale(vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 

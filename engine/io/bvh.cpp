@@ -168,7 +168,9 @@ class Parser {
   }
 
   void readMotion() {
-    expect("MOTION");
+    if (const std::string_view found = next(); !sameLetters(found, "MOTION"))
+      breaks("expected MOTION, found " + quoted(found) +
+             "; export the skeleton of one person with its motion");
     expectMark("Frames:");
     motion_.frameCount = std::uint32_t(whole("the number of frames", 10'000'000));
     if (motion_.frameCount == 0) breaks("there are no frames; export the motion again");

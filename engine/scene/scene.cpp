@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "body/axial_bones.h"
 #include "body/belonging.h"
@@ -78,10 +80,19 @@ Result<void> addMotion(const SceneFile& file, Body& body) {
     logWarning(match);  // a map is taken at its word
   else
     logInfo(match);
-  if (!staysNear(body.skeleton, done->clip))
-    return badInput(
-        file.clip +
-        ": takes the body farther than a kilometre from where it rests; check the unit of its positions");
+  if (!staysNear(body.skeleton, done->clip)) {
+    float jump = std::numeric_limits<float>::infinity();  // as where a tracker lost its person
+    for (const JointTracks& tracks : done->clip.tracks)
+      for (std::size_t key = 1; key < tracks.translation.values.size(); ++key)
+        if (glm::distance(tracks.translation.values[key - 1], tracks.translation.values[key]) >
+            kFarthestReach / 2)
+          jump = std::min(jump, tracks.translation.times[key]);
+    return badInput(fmt::format(
+        "{}: takes the body farther than a kilometre from where it rests; {}", file.clip,
+        std::isfinite(jump) ? fmt::format("leave out the frames that jump there, from frame {:.0f} on",
+                                          jump * done->clip.framesPerSecond)
+                            : "check the unit of its positions"));
+  }
   body.clips.push_back(std::move(done->clip));
   return {};
 }

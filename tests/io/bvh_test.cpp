@@ -155,7 +155,8 @@ TEST_CASE("what is wrong with a BVH file is told with its line") {
   expectBvhFault("HIERARCHY\nROOT a\n{\n OFFSET 0 0 0\n CHANNELS 9 Xrotation\n", "from 0 to 6");
   expectBvhFault("HIERARCHY\nROOT a\n{\n OFFSET 0 0 0\n BONE b\n",
                  "expected JOINT, End Site or }, found 'BONE'");
-  expectBvhFault(kHierarchy, "expected MOTION");
+  expectBvhFault(kHierarchy, "expected MOTION, found the file's end; export the skeleton of one person with");
+  expectBvhFault(kHierarchy + kHierarchy, "expected MOTION, found 'HIERARCHY'; export the skeleton of one");
   expectBvhFault(kHierarchy + "MOTION\nFrames: 0\n", "there are no frames");
   expectBvhFault(kHierarchy + "MOTION\nFrames: 1\nFrame Time: 0\n", "must be above zero");
   expectBvhFault(kHierarchy + "MOTION\nFrames: 9999999\nFrame Time: 0.1\n", "fewer values");
