@@ -84,17 +84,17 @@ auto readInUnit(const Options& options, Read read) -> decltype(read(1.0)) {
   auto found = read(1.0);
   if (!found) return found;
   const Aabb bounds = boundsOf(*found);
-  if (likelyUnit(bounds) == 1 || std::ranges::all_of(options.meshes, isMarkupsFile)) return found;
+  const auto [unit, why] = likelyUnit(bounds, options.meshes.front());
+  if (unit == 1 || std::ranges::all_of(options.meshes, isMarkupsFile)) return found;
   if (std::ranges::all_of(options.meshes, isGltfFile)) {
     logWarning(
         fmt::format("glTF is in metres, and the vessels look as if {}; --unit mm reads it as millimetres",
                     sizeInMetres(bounds)));
     return found;
   }
-  logInfo(fmt::format("vessels read as millimetres, as in metres {}; --unit says otherwise",
-                      sizeInMetres(bounds)));
+  logInfo("vessels read as " + why + "; --unit says otherwise");
   ofFirst.drop();
-  return read(likelyUnit(bounds));
+  return read(unit);
 }
 
 ConvertOptions convertOptions(const Options& options) {

@@ -183,7 +183,7 @@ template <class Vessels>
 void addExtent(Report& report, const Vessels& vessels, const std::filesystem::path& file) {
   const Aabb bounds = boundsOf(vessels);
   const vec3 extent = bounds.empty() ? vec3(0) : bounds.extent();
-  const double likely = likelyUnit(bounds), unit = isGltfFile(file) ? 1 : likely;
+  const double likely = likelyUnit(bounds, file).metres, unit = isGltfFile(file) ? 1 : likely;
   report["wide_m"] = extent.x * unit, report["high_m"] = extent.y * unit, report["deep_m"] = extent.z * unit;
   report["metres_a_unit"] = unit;
   report["next"] = fmt::format("vasa convert {}{} -o NET.vasa", asArgument(file.string()),

@@ -7,7 +7,7 @@ namespace vasa::cli {
 SideLook::SideLook(const Network& network)
     : interference_(network),
       sides_(network, interference_),
-      search_(interference_.restTubes(), interference_.layout().neighbours().exclusions()) {}
+      search_(interference_.restTubes(), interference_.layout().neighbours()) {}
 
 void SideLook::step(const FrameMaker& maker) {
   if (!std::exchange(isUnderWay_, true)) passed_.clear(), passedBefore_ = 0;

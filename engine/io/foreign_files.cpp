@@ -1,7 +1,6 @@
 #include "io/foreign_files.h"
 
-#include <algorithm>
-#include <array>
+#include <fstream>
 #include <string_view>
 
 #include "core/letters.h"
@@ -11,68 +10,68 @@
 namespace vasa {
 namespace {
 
-template <std::size_t N>
-bool isAny(std::string_view extension, const std::array<std::string_view, N>& of) {
-  return std::ranges::find(of, extension) != of.end();
-}
+// What others write, and what to do with it where vessels, a body or a motion is asked for. Each row's kinds
+// are told by the endings that stand in it between blanks.
+struct Foreign {
+  std::string_view endings, vessels, body, motion;
+};
+constexpr std::string_view kToBvh =
+    "open it in Blender and export the armature's motion as .bvh (clips of the "
+    "body's own file go by their names)";
+constexpr std::string_view kNoBody =
+    "it has no skeleton: vasa convert reads vessels, and vasa fit --from the skin of a scan";
+constexpr std::string_view kMotion = "it is a motion, and no vessels";
+constexpr std::string_view kMotionForBody =
+    "it is a motion: name a body in its place, and the motion where one is asked for";
+constexpr std::string_view kSwcLines =
+    "write centre lines as .swc, a line `id type x y z radius parent` for each sample";
+constexpr Foreign kForeign[] = {
+    {" .ply .off .dae .fbx .3ds .blend .usd .usda .usdc .usdz .abc .ma .mb .max .c4d .x .pmx .3mf .wrl .x3d ",
+     "open it in Blender or MeshLab and export it as .glb or .obj",
+     "open it in Blender and export it with its armature as .glb", kToBvh},
+    {" .step .stp .iges .igs .3dm .brep ", "open it in FreeCAD and export it as .obj or .stl", "", ""},
+    {" .byu .gii .msh .mesh ", "open it in the program that made it, ParaView or Gmsh, and save it as .stl",
+     "", ""},
+    {" .asc .nlx .ndf .hoc .nml ",
+     "convert it to .swc first (the tracing program exports it, or L-Measure does)", "", ""},
+    {" .traces ", "export it in SNT as .swc", "", ""},
+    {" .eswc ", "name it .swc: columns after the seventh are passed over", "", ""},
+    {" .vtu .vti .vtr .vts .vtm .pvd .vtkhdf .foam ",
+     "extract its surface (ParaView: Extract Surface) and save it as .vtp", "", ""},
+    {" .nrrd .nii .mha .mhd .dcm .tif .tiff ",
+     "make a surface of the labelled volume first (3D Slicer: export the segmentation as .stl or .obj)", "",
+     ""},
+    {" .mrk .fcsv .mrml .mrb ",
+     "save the model in 3D Slicer as .stl, or the centre lines with radii (Extract Centerline) as .vtp (the "
+     "model) or .mrk.json (the curves)",
+     "", ""},
+    {" .pth .paths .ctgr .mdl ", "export the model in SimVascular as .vtp or .stl", "", ""},
+    // Graphs of vessels: of Amira, TubeTK, igraph and others.
+    {" .am .tre .graphml .gml .gexf .graph .hx ",
+     "write its points as .swc, a line `id type x y z radius parent` for each, or its surface as .stl", "",
+     ""},
+    {" .csv .txt .xyz .tsv .xlsx .dat .mat .npy .npz .pkl .h5 .hdf5 ", kSwcLines, "",
+     "turn it into .bvh first, with joints and their turns (Blender exports an armature's motion so)"},
+    {" .tck .trk .trx ", kSwcLines, "", ""},
+    {" .c3d .trc .amc .asf .htr .mvn .mvnx .bip .vmd .vrma .anim .sto .mot ", kMotion, kMotionForBody,
+     "turn it into .bvh first (Blender imports .c3d, and exports an armature's motion as .bvh)"},
+    {" .bvh ", kMotion, kMotionForBody, ""},
+    {" .obj .stl .vtp .vtk .swc ", "", kNoBody, ""},
+    {" .glb .gltf ", "", "", kToBvh},
+    {" .vrm ", "it is a body, and no vessels: other commands take it with --body", "", kToBvh},
+    {" .vasa ", "it is a network already: other commands take it with --network",
+     "it is a network: name a body in its place, and the network where vessels are asked for", ""},
+    {" .gz .zip .7z .rar .tar .bz2 .xz ", "unpack it first", "unpack it first", "unpack it first"}};
 
-constexpr std::array<std::string_view, 20> kModels{
-    ".ply", ".off", ".dae", ".fbx", ".3ds", ".blend", ".usd", ".usda", ".usdc", ".usdz",
-    ".abc", ".ma",  ".mb",  ".max", ".c4d", ".x",     ".pmx", ".3mf",  ".wrl",  ".x3d"};
-constexpr std::array<std::string_view, 4> kParts{".step", ".stp", ".iges", ".igs"};
-constexpr std::array<std::string_view, 4> kMeshes{".byu", ".gii", ".msh", ".mesh"};
-constexpr std::array<std::string_view, 3> kTracings{".asc", ".nlx", ".ndf"};
-constexpr std::array<std::string_view, 5> kGrids{".vtu", ".vti", ".vtr", ".vts", ".vtm"};
-constexpr std::array<std::string_view, 5> kVolumes{".nrrd", ".nii", ".mha", ".mhd", ".dcm"};
-constexpr std::array<std::string_view, 4> kPacked{".gz", ".zip", ".7z", ".rar"};
-constexpr std::array<std::string_view, 4> kSlicer{".mrk", ".fcsv", ".mrml", ".mrb"};
-constexpr std::array<std::string_view, 4> kSimVascular{".pth", ".paths", ".ctgr", ".mdl"};
-constexpr std::array<std::string_view, 5> kTables{".csv", ".txt", ".xyz", ".tsv", ".xlsx"};
-constexpr std::array<std::string_view, 5> kCaptures{".c3d", ".trc", ".amc", ".asf", ".htr"};
-constexpr std::array<std::string_view, 5> kVessels{".obj", ".stl", ".vtp", ".vtk", ".swc"};
-
-std::string vesselRemedy(const std::string& extension) {
-  if (isAny(extension, kModels)) return "; open it in Blender or MeshLab and export it as .glb or .obj";
-  if (isAny(extension, kParts)) return "; open it in FreeCAD and export it as .obj or .stl";
-  if (isAny(extension, kGrids))
-    return "; extract its surface (ParaView: Extract Surface) and save it as .vtp";
-  if (isAny(extension, kVolumes))
-    return "; make a surface of the labelled volume first (3D Slicer: export the segmentation as .stl or .obj)";
-  if (isAny(extension, kSlicer))
-    return "; save the model in 3D Slicer as .stl, or the centre lines with radii (Extract Centerline) as .vtp "
-           "(the model) or .mrk.json (the curves)";
-  if (isAny(extension, kSimVascular)) return "; export the model in SimVascular as .vtp or .stl";
-  if (isAny(extension, kMeshes))
-    return "; open it in the program that made it, ParaView or Gmsh, and save it as .stl";
-  if (isAny(extension, kTracings))
-    return "; convert it to .swc first (the tracing program exports it, or L-Measure does)";
-  if (extension == ".traces") return "; export it in SNT as .swc";
-  if (extension == ".eswc") return "; name it .swc: columns after the seventh are passed over";
-  if (isAny(extension, kTables))
-    return "; write centre lines as .swc, a line `id type x y z radius parent` for each sample";
-  if (extension == ".bvh" || isAny(extension, kCaptures)) return "; it is a motion, and no vessels";
-  if (extension == ".vasa") return "; it is a network already: other commands take it with --network";
-  if (extension == ".vrm") return "; it is a body, and no vessels: other commands take it with --body";
-  return {};
-}
-
-std::string bodyRemedy(const std::string& extension) {
-  if (isAny(extension, kModels)) return "; open it in Blender and export it with its armature as .glb";
-  if (isAny(extension, kVessels))
-    return "; it has no skeleton: vasa convert reads vessels, and vasa fit --from the skin of a scan";
-  if (extension == ".bvh" || isAny(extension, kCaptures))
-    return "; it is a motion: name a body in its place, and the motion where one is asked for";
-  if (extension == ".vasa")
-    return "; it is a network: name a body in its place, and the network where vessels are asked for";
-  return {};
-}
-
-std::string motionRemedy(const std::string& extension) {
-  if (isAny(extension, kCaptures))
-    return "; turn it into .bvh first (Blender imports .c3d, and exports an armature's motion as .bvh)";
-  if (isAny(extension, kModels) || extension == ".glb" || extension == ".gltf" || extension == ".vrm")
-    return "; open it in Blender and export the armature's motion as .bvh (clips of the body's own file go by "
-           "their names)";
+std::string remedyOf(const std::string& extension, FileUse use) {
+  if (extension.empty()) return {};
+  for (const Foreign& kind : kForeign) {
+    if (kind.endings.find(" " + extension + " ") == std::string_view::npos) continue;
+    const std::string_view remedy = use == FileUse::vessels ? kind.vessels
+                                    : use == FileUse::body  ? kind.body
+                                                            : kind.motion;
+    return remedy.empty() ? std::string() : "; " + std::string(remedy);
+  }
   return {};
 }
 
@@ -85,16 +84,31 @@ bool isGltfFile(const std::filesystem::path& path) {
   return extension == ".glb" || extension == ".gltf" || extension == ".vrm";
 }
 
+ToldFrame toldFrame(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (isGltfFile(path) || !std::filesystem::is_regular_file(path, ignored)) return {};
+  std::string head(4096, ' ');
+  std::ifstream file(path, std::ios::binary);
+  file.read(head.data(), std::streamsize(head.size()));
+  const auto says = [&](std::string_view text) { return head.find(text) != head.npos; };
+  ToldFrame told;
+  if (says("uses centimeters as units") || says("UNITS=cm")) told.metresPerUnit = 0.01;
+  if (says("UNITS=mm")) told.metresPerUnit = 0.001;
+  // .vtp files have the axes as data: the letters' numbers.
+  const std::size_t data = head.find("Name=\"SPACE\"");
+  const bool ras = data != head.npos && head.substr(data, 300).find(" 82 65 83") != head.npos;
+  if (says("SPACE=LPS") || data != head.npos) told.up = ImportFrame::Up::z;
+  if (says("SPACE=RAS") || ras) told.up = ImportFrame::Up::zBackwards;
+  return told;
+}
+
 std::string remedyFor(const std::filesystem::path& path, FileUse use) {
   const std::string extension = extensionOf(path);
   if (use == FileUse::vessels && isMarkupsFile(path)) return "; vasa convert makes a network of it";
   // a.nii.gz, a.mrk.json: what stands before tells.
   if (extension == ".gz" || extension == ".json")
     if (std::string inner = remedyFor(path.stem(), use); !inner.empty()) return inner;
-  if (isAny(extension, kPacked)) return "; unpack it first";
-  return use == FileUse::vessels ? vesselRemedy(extension)
-         : use == FileUse::body  ? bodyRemedy(extension)
-                                 : motionRemedy(extension);
+  return remedyOf(extension, use);
 }
 
 }  // namespace vasa

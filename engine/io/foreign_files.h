@@ -1,6 +1,9 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
+
+#include "io/import_frame.h"
 
 // Files that others' programs write and that are not read here, or not for this.
 namespace vasa {
@@ -9,6 +12,13 @@ namespace vasa {
 std::string extensionOf(const std::filesystem::path& path);
 /// .glb, .gltf, .vrm.
 bool isGltfFile(const std::filesystem::path& path);
+
+/// What other programs wrote about a file into its head.
+struct ToldFrame {
+  std::optional<ImportFrame::Up> up;  ///< 3D Slicer's "SPACE=LPS"
+  double metresPerUnit = 0;           ///< Maya's "uses centimeters as units", Magics' "UNITS=mm"; 0: not told
+};
+ToldFrame toldFrame(const std::filesystem::path& path);
 
 enum class FileUse { vessels, body, motion };
 

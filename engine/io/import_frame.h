@@ -8,19 +8,21 @@ namespace vasa {
 
 /// How a file without units of its own (OBJ, STL, SWC, VTP) lies in the world: house units are metres, +Y up.
 struct ImportFrame {
-  enum class Up { y, z };
-  double metresPerUnit = 1;  ///< > 0; 0.001 for millimetres
+  enum class Up { y, z, zBackwards };  ///< z: facing -Y, as LPS; zBackwards: facing +Y, as RAS
+  double metresPerUnit = 1;            ///< > 0; 0.001 for millimetres
   Up up = Up::y;
 
-  /// Z up, facing -Y, becomes Y up, facing +Z.
+  /// Up becomes +Y, and what faces -Y (backwards: +Y) faces +Z.
   vec3 toHouse(dvec3 p) const {
-    const dvec3 turned = up == Up::z ? dvec3(p.x, p.z, -p.y) : p;
+    const double side = up == Up::zBackwards ? -1 : 1;
+    const dvec3 turned = up == Up::y ? p : dvec3(side * p.x, p.z, -side * p.y);
     return vec3(turned * metresPerUnit);
   }
   /// The other way.
   dvec3 toFile(vec3 p) const {
+    const double side = up == Up::zBackwards ? -1 : 1;
     const dvec3 q = dvec3(p) / metresPerUnit;
-    return up == Up::z ? dvec3(q.x, -q.z, q.y) : q;
+    return up == Up::y ? q : dvec3(side * q.x, -side * q.z, q.y);
   }
 };
 

@@ -71,11 +71,11 @@ double coordinateUnit(const MarkupsJson& markup, const std::string& place) {
 }
 
 // LPS: +X left, +Y backwards, +Z up. RAS, which older versions call 0: the other way along the first two.
-dvec3 inLps(dvec3 p, const MarkupsJson& markup, const std::string& place) {
+ImportFrame::Up upOf(const MarkupsJson& markup, const std::string& place) {
   const std::string told = wordAt(markup, "coordinateSystem");
-  if (told.empty() || told == "LPS" || told == "1") return p;
+  if (told.empty() || told == "LPS" || told == "1") return ImportFrame::Up::z;
   if (told != "RAS" && told != "0") throw BrokenMarkups{place + "/coordinateSystem is neither LPS nor RAS"};
-  return {-p.x, -p.y, p.z};
+  return ImportFrame::Up::zBackwards;
 }
 
 // The radii of all control points [m], in the measurement's own unit, else in that of the places.
@@ -106,6 +106,7 @@ std::vector<double> controlRadii(const MarkupsJson& markup, std::size_t count, d
 
 void addCurve(Centrelines& lines, const MarkupsJson& markup, const std::string& place, VesselKind kind) {
   const double unit = coordinateUnit(markup, place);
+  const ImportFrame frame{unit, upOf(markup, place)};
   const MarkupsJson& points = listOf(markup, "controlPoints");
   if (points.size() < 2) return;
   const std::vector<double> radii = controlRadii(markup, points.size(), unit, place);
@@ -118,8 +119,7 @@ void addCurve(Centrelines& lines, const MarkupsJson& markup, const std::string& 
     if (position.size() != 3) throw BrokenMarkups{at + "/position must be three numbers"};
     dvec3 p;
     for (int k = 0; k < 3; ++k) p[k] = lengthAt(position[std::size_t(k)], unit, at + "/position");
-    const vec4 sample(ImportFrame{unit, ImportFrame::Up::z}.toHouse(inLps(p, markup, place)),
-                      float(radii[i]));
+    const vec4 sample(frame.toHouse(p), float(radii[i]));
     if (samples.empty() || vec3(samples.back()) != vec3(sample)) samples.push_back(sample);
   }
   if (samples.size() < 2) return;

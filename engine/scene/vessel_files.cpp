@@ -48,6 +48,11 @@ Result<std::vector<MeshElement>> readElements(const std::filesystem::path& path,
           remedyFor(path, FileUse::vessels)};
 }
 
+// As asked for, but for axes that the file tells itself.
+ImportFrame frameOf(const std::filesystem::path& path, const ImportFrame& asked) {
+  return {asked.metresPerUnit, toldFrame(path).up.value_or(asked.up)};
+}
+
 float farthest(const Aabb& bounds) { return bounds.empty() ? 0 : bounds.distance(vec3(0)); }
 
 // What `read` gives, in the likely unit.
@@ -57,11 +62,9 @@ auto readInLikelyUnit(const std::filesystem::path& path, Read read, ImportFrame:
   HeldWarnings ofFirst;  // reading again says them again
   auto found = read(VesselImport{{1, up}, {}});
   if (!found || isGltfFile(path) || isMarkupsFile(path)) return found;  // in units of their own
-  const Aabb bounds = boundsOf(*found);
-  const double unit = likelyUnit(bounds);
+  const auto [unit, why] = likelyUnit(boundsOf(*found), path);
   if (unit == 1) return found;
-  logInfo(path.string() + ": read as millimetres, as in metres " + sizeInMetres(bounds) +
-          "; --unit of vasa convert and vasa fit says otherwise");
+  logInfo(path.string() + ": read as " + why + "; --unit of vasa convert and vasa fit says otherwise");
   ofFirst.drop();
   return read(VesselImport{{unit, up}, {}});
 }
@@ -145,8 +148,11 @@ Aabb boundsOf(const Centrelines& lines) {
   return box;
 }
 
-double likelyUnit(const Aabb& bounds) {
-  return bounds.size() > kTallestBody || farthest(bounds) > kFarthestBody ? 0.001 : 1;
+LikelyUnit likelyUnit(const Aabb& bounds, const std::filesystem::path& path) {
+  if (const double told = toldFrame(path).metresPerUnit; told > 0 && bounds.size() * told <= kTallestBody)
+    return {told, told < 0.01 ? "millimetres, as its head says" : "centimetres, as its head says"};
+  if (bounds.size() <= kTallestBody && farthest(bounds) <= kFarthestBody) return {1, {}};
+  return {0.001, "millimetres, as in metres " + sizeInMetres(bounds)};
 }
 
 std::string sizeInMetres(const Aabb& bounds) {
@@ -183,7 +189,7 @@ bool holdsCentrelines(const std::filesystem::path& path) {
 
 Result<std::vector<SourceElement>> readSurfaces(const std::filesystem::path& path,
                                                 const VesselImport& import) {
-  auto elements = readElements(path, import.frame);
+  auto elements = readElements(path, frameOf(path, import.frame));
   if (!elements) return elements.error();
   if (std::ranges::all_of(*elements, [](const MeshElement& e) { return e.mesh.empty(); }))
     return badInput(path.string() + ": the file holds no triangles; export the vessels as surfaces");
@@ -222,8 +228,8 @@ Result<Centrelines> readCentrelines(const std::filesystem::path& path, const Ves
     joinTouchingLines(traces);
     return traces;
   }
-  const auto lines =
-      extensionOf(path) == ".vtk" ? readVtkLines(path, import.frame) : readVtp(path, import.frame);
+  const ImportFrame frame = frameOf(path, import.frame);
+  const auto lines = extensionOf(path) == ".vtk" ? readVtkLines(path, frame) : readVtp(path, frame);
   if (!lines) return lines.error();
   auto centrelines = centrelinesOfVtp(*lines, name, kind);
   if (!centrelines) return badInput(path.string() + ": " + centrelines.error().message);

@@ -12,10 +12,16 @@
 // Vessels out of files that other programs wrote.
 namespace vasa {
 
-/// The one rule for files that do not say: metres, or millimetres where in metres they would be taller than
-/// kTallestBody or farther from the origin than kFarthestBody, as one vessel of a scan is.
+/// The one rule for files whose formats have no unit: what the file's head says (io/foreign_files.h), unless
+/// that makes it taller than kTallestBody; else metres, or millimetres where in metres it would be taller
+/// than that or farther from the origin than kFarthestBody, as one vessel of a scan is.
 /// @param bounds  of all vessels, in the file's unit
-double likelyUnit(const Aabb& bounds);
+/// @param path    of the file, or the first of several
+struct LikelyUnit {
+  double metres = 1;
+  std::string why;  ///< "millimetres, as in metres they would be 706 m large"; empty for metres
+};
+LikelyUnit likelyUnit(const Aabb& bounds, const std::filesystem::path& path);
 constexpr float kTallestBody = 4, kFarthestBody = 40;  ///< [m]
 /// Why: "they would be 706 m large", or "they would lie 706 m from the origin".
 std::string sizeInMetres(const Aabb& bounds);

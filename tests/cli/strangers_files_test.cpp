@@ -6,6 +6,8 @@
 #include "core/atomic_file.h"
 #include "io/gltf_builder.h"
 #include "io/person_pieces.h"
+#include "network/file.h"
+#include "network/measure.h"
 #include "support/shared_data.h"
 
 using namespace vasa;
@@ -70,6 +72,50 @@ TEST_CASE("curves of 3D Slicer are centre lines, in the unit and the axes that t
   const auto unit = runProgram({"convert", curve, "--unit", "mm", "-o", net});
   CHECK(unit.exit == 2);
   CHECK_MESSAGE(holds(unit.err, "tells its unit and its axes itself"), unit.err);
+}
+
+TEST_CASE("models of 3D Slicer tell their axes in their heads") {
+  const Files files;
+  // A bow that leads up and, in its middle, forwards: the same in all files once it is upright and faces +Z.
+  const auto made = [&](const char* name, const std::string& head, float side) {
+    std::string points, rows;
+    for (int i = 0; i <= 20; ++i) {
+      const float forwards = 30 * std::sin(kPi * float(i) / 20);
+      points += "0 " + std::to_string(-side * forwards) + " " + std::to_string(10 * i) + "\n";
+    }
+    for (int i = 0; i <= 20; ++i) rows += " " + std::to_string(i);
+    const auto file =
+        files.write(name, "# vtk DataFile Version 4.2\n" + head +
+                              "\nASCII\nDATASET POLYDATA\nPOINTS 21 float\n" + points + "LINES 1 22\n21" +
+                              rows + "\nCELL_DATA 1\nSCALARS Radius float 1\n" + "LOOKUP_TABLE default\n4\n");
+    const auto net = files.path("a.vasa");
+    const auto done = runProgram({"convert", file, "--kind", "artery", "-o", net});
+    REQUIRE_MESSAGE(done.exit == 0, done.err);
+    const auto network = readNetwork(net);
+    REQUIRE(network.ok());
+    return measure(*network, network->points()).bounds;
+  };
+  for (const Aabb& box : {made("lps.vtk", "3D Slicer output. SPACE=LPS", 1),
+                          made("ras.vtk", "3D Slicer output. SPACE=RAS", -1)}) {
+    CHECK(box.extent().y > 0.19f);
+    CHECK(box.high.z > 0.02f);
+    CHECK(box.low.z > -0.01f);
+  }
+  CHECK(made("untold.vtk", "vtk output", 1).extent().z > 0.19f);  // along +Z, as it is
+}
+
+TEST_CASE("what a file's head says of its unit is taken, unless it were no person's") {
+  const Files files;
+  const auto high = [&](const char* head, float scale) {
+    const auto told =
+        runProgram({"info", files.write("aorta.obj", head + object("aorta", tube(), scale)), "--json"});
+    REQUIRE_MESSAGE(told.exit == 0, told.err);
+    return told.json()["high_m"].get<double>();
+  };
+  const char* const maya = "# This file uses centimeters as units for non-parametric coordinates.\n";
+  CHECK(high("", 100) == doctest::Approx(0.01));
+  CHECK(high(maya, 100) == doctest::Approx(0.1));
+  CHECK(high(maya, 10000) == doctest::Approx(1));
 }
 
 TEST_CASE("a stent beside its vessel is left out with the reason, and one alone is doubtful") {

@@ -58,7 +58,7 @@ class Watch {
     return tubes;
   }
   NetworkTubes layout_{human().network};
-  PassageSearch search_{restTubes(), layout_.neighbours().exclusions()};
+  PassageSearch search_{restTubes(), layout_.neighbours()};
   std::vector<Bezier> now_, last_;
 };
 

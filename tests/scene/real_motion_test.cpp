@@ -18,7 +18,7 @@ TEST_CASE("a real body's vessels part in its motions, none passes through anothe
   FrameMaker maker(*scene, {.avoid = true});
   Interference interference(scene->network);
   RestSides sides(scene->network, interference);
-  PassageSearch search(interference.restTubes(), interference.layout().neighbours().exclusions());
+  PassageSearch search(interference.restTubes(), interference.layout().neighbours());
   std::vector<Bezier> tubes(interference.layout().count()), last;
   std::vector<RestSides::Turned> changed;
   struct Motion {
