@@ -47,6 +47,7 @@ class Parser {
     }
     readMotion();
     keepOffsets();
+    warnOfRadians();
     passOverRest();
     return std::move(motion_);
   }
@@ -260,6 +261,13 @@ class Parser {
       logWarning(motion_.name + ": the places of " + std::to_string(kept) + " of " + std::to_string(joints) +
                  " joints are zero in every frame, as where none were recorded; their OFFSETs are taken");
   }
+  // Who moves at all turns some joint farther.
+  void warnOfRadians() const {
+    if (motion_.frameCount > 1 && mostTurn_ > 0.5 && mostTurn_ < 2 * 180 * kRadians)
+      logWarning(motion_.name + ": no joint turns by more than " +
+                 numberText(std::round(10 * mostTurn_) / 10) +
+                 " degrees in any frame; if the file has radians, write degrees");
+  }
   // Some put marks of an end behind the last row.
   void passOverRest() {
     const std::size_t last = rest_.find_last_not_of(std::string_view(" \t\r\n\0\x1a", 6));
@@ -283,6 +291,7 @@ class Parser {
         dvec3 axis(0);
         axis[int(channel) - 3] = 1;
         turn = turn * glm::angleAxis(*value * kRadians, axis);
+        mostTurn_ = std::max(mostTurn_, std::abs(*value));
       }
       ++value;
     }
@@ -293,6 +302,7 @@ class Parser {
 
   std::string_view rest_;
   std::size_t bytes_, line_ = 1;
+  double mostTurn_ = 0;         // as a channel has it
   std::size_t perFrame_ = 0;    // values
   std::vector<double> values_;  // of one frame
   bool wrapped_ = false;        // a frame takes several rows

@@ -52,6 +52,18 @@ TEST_CASE("BVH files and joint maps that do not fit are refused") {
       "far.bvh: takes the body farther than a kilometre from where it rests; leave out the frames that jump ");
 }
 
+TEST_CASE("a motion whose turns are all small is warned of, as it may be in radians") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "small.bvh";
+  const auto told = [&](const char* angle) {
+    REQUIRE(writeFileAtomically(path, armMotion({"0", angle})).ok());
+    return runProgram({"info", path.string()})
+        .err.find("by more than 1.4 degrees in any frame; if the file has radians");
+  };
+  CHECK(told("-1.4") != std::string::npos);
+  CHECK(told("-80") == std::string::npos);
+}
+
 TEST_CASE("vessels are held where a table says, which is refused where it names none") {
   const TemporaryFolder folder;
   const auto table = [&](const char* name, const std::string& row) {
