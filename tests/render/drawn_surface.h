@@ -70,13 +70,12 @@ struct Forks {
         patchPass.record(commands,
                          {tubes, patches, detailPass, pointBuffer.address(), knotBuffer.address(), false});
       filling.recordStart(commands, all);
-      tubePass.record(
-          commands, {tubes, detailPass, pointBuffer.address(), knotBuffer.address(), filling, filled, cull});
+      const TubePass::Input input{tubes,  detailPass, pointBuffer.address(), knotBuffer.address(), filling,
+                                  filled, cull};
+      tubePass.record(commands, input);
       gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                         VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
-      if (all.forkEnd > 0)
-        forkPass.record(commands, {tubes, forks, detailPass, pointBuffer.address(), knotBuffer.address(),
-                                   filling, filled, cull});
+      if (all.forkEnd > 0) forkPass.record(commands, input, forks);
       gpu::stageBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                         VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
       planPass.record(commands, filling, filled);
