@@ -1,6 +1,7 @@
 #pragma once
 #include <vulkan/vulkan.h>
 
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -25,6 +26,7 @@ concept PushConstants = std::is_trivially_copyable_v<T> && sizeof(T) <= kMaxPush
 class Specialization {
  public:
   Specialization& set(std::uint32_t id, std::uint32_t value);
+  Specialization& set(std::uint32_t id, float value) { return set(id, std::bit_cast<std::uint32_t>(value)); }
 
   VkSpecializationInfo info() const;  ///< points into this object
 
