@@ -11,6 +11,7 @@ SideLook::SideLook(const Network& network)
 
 void SideLook::step(const FrameMaker& maker) {
   if (!std::exchange(isUnderWay_, true)) passed_.clear(), passedBefore_ = 0;
+  if (shape_.empty()) isFromRest_ = maker.report().steps == 0;
   last_.swap(shape_);
   lastPosed_.swap(posed_);
   shape_.resize(interference_.layout().count());
@@ -24,8 +25,9 @@ void SideLook::step(const FrameMaker& maker) {
 }
 
 void SideLook::next(const FrameMaker& maker) {
-  isFromRest_ |= isUnderWay_ && !last_.empty();
+  const bool isFirst = shape_.empty();  // it was known, and no step led to it
   step(maker);
+  if (isFirst) isFromRest_ = false;
   isUnderWay_ = false;
   sides_.findChanged(shape_, maker.rotations(), changed_);
 }

@@ -24,7 +24,7 @@ class SideLook {
   /// How many passages there are where the body alone moves the vessels.
   std::size_t passedBefore() const { return passedBefore_; }
 
-  /// Whether steps led to the first frame, and so from rest, or it was known before.
+  /// Whether the way that was seen began at rest, and not at a frame that was known.
   bool isFromRest() const { return isFromRest_; }
 
  private:

@@ -130,8 +130,7 @@ void forEachPassing(const Stretch& a, const Stretch& b, const Passes& passes) {
 template <class Passes>
 void search(const Stretch& a, const Stretch& b, double straight, int halvings, const Passes& passes) {
   if (apart(a, b)) return;
-  const bool aBends = a.bow > straight, bBends = b.bow > straight;
-  if (halvings == 2 * kMostHalvings || (!aBends && !bBends)) {
+  if (halvings == 2 * kMostHalvings || std::max(a.bow, b.bow) <= straight) {
     forEachPassing(a, b, [&](double s, double t, double time) {
       passes(glm::mix(a.from, a.to, s), glm::mix(b.from, b.to, t), time);
     });

@@ -30,7 +30,7 @@ class PassageSearch {
   /// @param rest        decides the tree's topology  @param exclusions  must outlive this
   PassageSearch(std::span<const Bezier> rest, const Exclusions& exclusions);
 
-  /// Sorted by pair, then by time; valid until the next call. About what a detection costs.
+  /// Sorted by pair, then by time; valid until the next call. Costs a detection and a half.
   /// @param before, after  as many tubes as at rest, in the same order
   std::span<const Passage> find(std::span<const Bezier> before, std::span<const Bezier> after);
 

@@ -263,7 +263,7 @@ class Parser {
   }
   // Who moves at all turns some joint farther.
   void warnOfRadians() const {
-    if (motion_.frameCount > 1 && mostTurn_ > 0.5 && mostTurn_ < 2 * 180 * kRadians)
+    if (motion_.frameCount > 1 && mostTurn_ > 0.5 && mostTurn_ < double(2 * kPi))
       logWarning(motion_.name + ": no joint turns by more than " +
                  numberText(std::round(10 * mostTurn_) / 10) +
                  " degrees in any frame; if the file has radians, write degrees");

@@ -36,6 +36,14 @@ TEST_CASE("check tells what passes through what from rest to its first frame and
   CHECK(report["frames"][0]["passages_before"] > 0);  // the body bends its knees without looking
   CHECK(report["summary"]["passages_before"] == before);
   CHECK(report["summary"]["passages"] == 0);
+  CHECK(report["summary"]["passages_from_rest"] == true);
+  // From a frame that a track holds on, the way began there.
+  const TemporaryFolder folder;
+  const std::string track = (folder.path() / "walk.track").string();
+  for (const bool known : {false, true})
+    CHECK(
+        runProgram({"check", "--clip", "walk", "--frames", known ? "4:5" : "0:2", "--track", track, "--json"})
+            .json()["summary"]["passages_from_rest"] == !known);
   const auto still = runProgram({"check", "--clip", "squat", "--frames", "44"});
   CHECK(still.out.find("None passes through another on the way from rest.") != std::string::npos);
 }
