@@ -8,7 +8,6 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <ranges>
 
 #include "core/atomic_file.h"
 #include "core/text_file.h"
@@ -41,8 +40,9 @@ class Reader {
       const auto field = fields.find(key);
       const std::string where = place + "/" + key;
       if (field == fields.end()) {
-        return fail(where, fmt::format("is not a known key; use one of {}",
-                                       fmt::join(fields | std::views::keys, ", ")));
+        std::vector<std::string> known;
+        for (const auto& known_field : fields) known.push_back(known_field.first);
+        return fail(where, fmt::format("is not a known key; use one of {}", fmt::join(known, ", ")));
       }
       field->second(item, where);
     }
