@@ -19,6 +19,9 @@ TEST_CASE("info on a network has the keys that tools rely on") {
   CHECK(report["vessels"].get<int>() >= 60);
   CHECK(report["arteries"].get<int>() + report["veins"].get<int>() == report["vessels"].get<int>());
   CHECK(report["file_bytes"] == std::filesystem::file_size(humanVessels()));
+  // 1.75 m: 4.5 litres.
+  CHECK(report["share_of_blood"].get<double>() ==
+        doctest::Approx(report["volume_m3"].get<double>() / 4.53e-3).epsilon(0.01));
 }
 
 TEST_CASE("info on a body and on the built-in scene") {
