@@ -6,6 +6,7 @@
 
 #include "body/body.h"
 #include "body/motion_rest.h"
+#include "body/motion_units.h"
 #include "body/retarget.h"
 #include "capillary_options.h"
 #include "commands.h"
@@ -117,7 +118,7 @@ Report motionReport(const Motion& motion, std::uintmax_t fileBytes, bool joints)
                 {"parts_known", humanoidKeys(parts.of)},
                 {"parts_of_a_person", kHumanoidKeys},
                 {"up", axisName(up)},
-                {"metres_a_unit", unit},
+                {"metres_a_unit", unit > 0 ? Report(unit) : Report()},
                 {"stands_in", standing == MotionPose::kZero ? std::string("the zero pose")
                                                             : "frame " + std::to_string(standing)},
                 {"file_bytes", fileBytes}};
@@ -159,7 +160,7 @@ Report bodyReport(const Body& body, std::uintmax_t fileBytes, bool joints = fals
 // Keys end in their unit: of volumes people read millilitres.
 std::string fact(const std::string& key, const Report& value, std::size_t width = 0) {
   if (key == "volume_m3") return fmt::format("{:<{}} {:.6g}", "volume_ml", width, 1e6 * value.get<double>());
-  return fmt::format("{:<{}} {}", key, width, plainText(value));
+  return fmt::format("{:<{}} {}", key, width, value.is_null() ? "unknown" : plainText(value));
 }
 
 // The same facts for a person: a line a fact, a table for lists.

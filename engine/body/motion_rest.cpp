@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <string>
 
-#include "body/humanoid.h"
+#include "body/rest_stance.h"
 #include "core/ids.h"
 
 namespace vasa {
@@ -14,104 +12,14 @@ namespace {
 constexpr std::uint32_t kFramesAsked = 64;
 constexpr float kUpright = 0.5f;  // least cosine between the trunk and +Y for +Y to be up
 constexpr float kSteady = 0.8f;   // length of the mean of unit vectors that say the same
-constexpr float kStandingTrunk = 0.77f, kStandingLeg = 0.71f;  // cosines of 40 and 45 degrees
 // Shares of a leg. Hips are as high above a floor as legs are long, whether they squat or tiptoe; not even
 // those who lie have theirs nearer to it than half of a trunk's thickness; the lower foot stays on it but
 // for steps and small leaps.
 constexpr float kLowestHips = 0.5f, kHighestHips = 1.6f, kLyingHips = 0.05f, kFootLift = 0.15f;
-constexpr const char* kSides[] = {"left", "right"};
 
 quat orIdentity(const Motion& motion, std::uint32_t frame, std::size_t joint) {
   return frame == MotionPose::kZero ? quat(1, 0, 0, 0) : motion.rotation(frame, joint);
 }
-
-class RestStance {
- public:
-  explicit RestStance(std::span<const std::string_view> parts) : parts_(parts) {
-    hips_ = of("hips");
-    for (const char* part : {"neck", "head", "upperChest", "chest"})
-      if (top_ == kNone) top_ = of(part);
-  }
-
-  std::uint32_t of(std::string_view part) const { return partNamed(parts_, part); }
-  std::uint32_t hips() const { return hips_; }
-
-  // Where a leg ends as far as it is known: the ankle, which may be an End Site of the shin, or a joint
-  // above.
-  std::optional<vec3> legEnd(const MotionPose& pose, const std::string& side) const {
-    if (const std::uint32_t foot = of(side + "Foot"); foot != kNone) return pose.places[foot];
-    if (const std::uint32_t knee = of(side + "LowerLeg"); knee != kNone) return pose.tips[knee];
-    if (const std::uint32_t hip = of(side + "UpperLeg"); hip != kNone) return pose.places[hip];
-    return std::nullopt;
-  }
-
-  // From the feet, or what is known of the legs, to the top of the trunk.
-  vec3 up(const MotionPose& pose) const {
-    vec3 low(0);
-    int count = 0;
-    for (const std::string side : kSides)
-      if (const auto end = legEnd(pose, side)) low += *end, ++count;
-    if (count == 0 && hips_ != kNone) low = pose.places[hips_], count = 1;
-    if (top_ == kNone || count == 0) return vec3(0);
-    const vec3 way = pose.places[top_] - low / float(count);
-    const float length = glm::length(way);
-    return length > 0 ? way / length : vec3(0);
-  }
-
-  // The lower of both feet along an axis, or of what is known of the legs.
-  float lowFoot(const MotionPose& pose, vec3 axis) const {
-    float low = glm::dot(pose.places[hips_], axis);
-    for (const std::string side : kSides)
-      if (const auto end = legEnd(pose, side)) low = std::min(low, glm::dot(*end, axis));
-    return low;
-  }
-
-  // Cosines of the trunk with an axis and of each bone of the legs with its opposite.
-  struct Uprightness {
-    float trunk = 0, worstLeg = 1, sum = 0;
-  };
-  Uprightness uprightness(const MotionPose& pose, vec3 axis = {0, 1, 0}) const {
-    Uprightness result;
-    const auto along = [&](vec3 a, vec3 b) {
-      const float length = glm::distance(a, b);
-      return length > 0 ? glm::dot(b - a, axis) / length : 0.0f;
-    };
-    if (hips_ != kNone && top_ != kNone) result.trunk = along(pose.places[hips_], pose.places[top_]);
-    result.sum = result.trunk;
-    const auto add = [&](vec3 from, vec3 to) {
-      const float down = -along(from, to);
-      result.worstLeg = std::min(result.worstLeg, down);
-      result.sum += down;
-    };
-    for (const std::string side : kSides) {
-      const std::uint32_t hip = of(side + "UpperLeg"), knee = of(side + "LowerLeg");
-      if (knee == kNone) continue;
-      if (hip != kNone) add(pose.places[hip], pose.places[knee]);
-      if (const vec3 end = *legEnd(pose, side); end != pose.places[knee]) add(pose.places[knee], end);
-    }
-    return result;
-  }
-
-  bool stands(const MotionPose& pose, vec3 axis) const {
-    const Uprightness own = uprightness(pose, axis);
-    return own.trunk >= kStandingTrunk && own.worstLeg >= kStandingLeg;
-  }
-
-  float legLength(const MotionPose& pose) const {
-    float longest = 0;
-    for (const std::string side : kSides) {
-      const std::uint32_t hip = of(side + "UpperLeg"), knee = of(side + "LowerLeg");
-      if (hip == kNone || knee == kNone) continue;
-      const float shin = glm::distance(pose.places[knee], *legEnd(pose, side));
-      if (shin > 0) longest = std::max(longest, glm::distance(pose.places[hip], pose.places[knee]) + shin);
-    }
-    return longest;
-  }
-
- private:
-  std::span<const std::string_view> parts_;
-  std::uint32_t hips_ = kNone, top_ = kNone;
-};
 
 // The axis that a direction is nearest to.
 vec3 axisOf(vec3 way) {
@@ -262,13 +170,6 @@ std::uint32_t standingPose(const Motion& motion, std::span<const std::string_vie
   return frame != MotionPose::kZero
              ? frame
              : best([&](const MotionPose& pose) { return stance.uprightness(pose, stance.up(pose)).sum; });
-}
-
-double metresAUnit(const Motion& motion, std::span<const std::string_view> parts) {
-  const double leg = double(RestStance(parts).legLength(motionPose(motion, MotionPose::kZero)));
-  for (const double unit : {1.0, 0.01, 0.0254, 0.0564, 0.001})
-    if (leg * unit > 0.45 && leg * unit < 1.15) return unit;
-  return 0;
 }
 
 }  // namespace vasa

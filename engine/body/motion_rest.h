@@ -40,9 +40,4 @@ Motion withUp(const Motion& motion, vec3 up);
 /// @return its frame, or MotionPose::kZero
 std::uint32_t standingPose(const Motion& motion, std::span<const std::string_view> parts);
 
-/// Metres that a unit of the motion is, judged by the length of a leg: 1, 0.01, 0.0254, 0.0564 (CMU's),
-/// 0.001; 0 where none of them makes a person of it. Motions are carried in any unit: this is for telling
-/// only.
-double metresAUnit(const Motion& motion, std::span<const std::string_view> parts);
-
 }  // namespace vasa

@@ -6,6 +6,7 @@
 
 #include "body/motion_rest.h"
 #include "body/rest_alignment.h"
+#include "body/rest_stance.h"
 #include "body/rig.h"
 #include "core/ids.h"
 
@@ -21,6 +22,7 @@ constexpr float kFloorShare = 0.05f;  // of the frames may have a foot lower tha
 constexpr std::uint32_t kFramesCompared = 12;
 constexpr float kWordsSure = 0.95f, kShapeSure = 0.8f;  // a known convention: 1
 constexpr float kStiffSure = 0.8f;                      // where the trunk is not followed
+constexpr float kNoStandSure = 0.7f;                    // where the pose compared with rest may be any
 constexpr float kTurnedRoundSure = 0.4f;                // where joints stand the other way round
 constexpr float kGoodAngle = 10, kLostAngle = 60;  // [degrees] between limbs: as good as right, and wrong
 
@@ -66,6 +68,9 @@ class Retargeter {
     standing_ = standingPose(motion(), from_.parts.of);
     const MotionPose pose = motionPose(motion(), standing_);
     placeIn(from_, pose);
+    const RestStance stance(from_.parts.of);
+    const vec3 stretched = stance.up(pose);
+    stands_ = stretched == vec3(0) || stance.stands(pose, stretched);
     standingTurns_ = pose.world;
     alignment_ = alignRest(motion(), standing_, standingTurns_, from_, to_, source_);
   }
@@ -208,7 +213,7 @@ class Retargeter {
   void describe(Retargeting& out, bool told) const {
     out.motionNames = from_.parts.family, out.bodyNames = to_.parts.family;
     out.motionParts.assign(from_.parts.of.begin(), from_.parts.of.end());
-    out.standingFrame = standing_;
+    out.standingFrame = standing_, out.stands = stands_;
     out.up = up_;
     std::vector<std::string_view> followed;
     for (std::uint32_t j = 0; j < source_.size(); ++j)
@@ -249,6 +254,7 @@ class Retargeter {
     if (out.trunkMissing > kTrunkFollowed) out.sureness *= kStiffSure;
     out.turnedRound = turnedRound();
     if (!out.turnedRound.empty()) out.sureness *= kTurnedRoundSure;
+    if (!out.stands) out.sureness *= kNoStandSure;
     out.sureness *= 1 - std::clamp((out.meanAngle - kGoodAngle) / (kLostAngle - kGoodAngle), 0.0f, 1.0f);
   }
 
@@ -288,6 +294,7 @@ class Retargeter {
   Rig from_, to_;
   vec3 up_{0, 1, 0};
   std::uint32_t standing_ = MotionPose::kZero;
+  bool stands_ = true;
   std::vector<quat> standingTurns_;    // of the motion's joints, in the pose that they stand in
   std::vector<std::uint32_t> source_;  // motion's joint that each of the body's follows
   TrunkSpread spread_;
@@ -320,6 +327,9 @@ std::string describeMatch(const Retargeting& done) {
                               : "Z");
   if (done.standingFrame != Retargeting::kZeroPose)
     text += ", compared with rest in frame " + std::to_string(done.standingFrame);
+  else if (!done.stands)
+    text += ", compared with rest in the zero pose";
+  if (!done.stands) text += ", in which nobody stands: trunk, hands and feet may be turned wrong";
   return text;
 }
 

@@ -19,6 +19,7 @@ struct Retargeting {
   float sureness = 0;                         ///< 0 to 1, as below
   float meanAngle = 0, worstAngle = 0;        ///< [degrees] between the limbs of both, in some of the frames
   std::uint32_t standingFrame = kZeroPose;    ///< the motion's pose that is compared with the body's rest
+  bool stands = true;                         ///< in it trunk and legs are in a line, as far as is known
   vec3 up{0, 1, 0};                           ///< the motion's axis that was taken for up
   /// [degrees] The most that the trunk's bend lacks in those of some frames in which it is less than half of
   /// the motion's.

@@ -120,6 +120,18 @@ std::optional<mat3> trunkOf(const Rig& rig, std::initializer_list<std::string_vi
   return mat3(side, up, glm::cross(side, up));
 }
 
+std::size_t peopleMoved(const Motion& motion) {
+  Skeleton skeleton;
+  const MotionPose pose = motionPose(motion, 0);
+  for (std::size_t j = 0; j < motion.joints.size(); ++j) {
+    Skeleton::Joint joint;
+    joint.name = motion.joints[j].name, joint.parent = motion.joints[j].parent;
+    joint.restWorld[3] = vec4(pose.places[j], 1);
+    skeleton.joints.push_back(std::move(joint));
+  }
+  return peopleIn(skeleton);
+}
+
 bool sidesSwapped(const Rig& rig) {
   constexpr float kBackwards = -0.5f;  // cosine; feet that hang down are about 0
   const auto trunk = trunkOf(rig, {"UpperArm", "UpperLeg"});

@@ -42,6 +42,7 @@ Rig rigOf(const Skeleton& skeleton);  ///< at rest
 /// and neck or head among their joints, and most of the limbs. Motions and vessels know of one.
 /// 0 beyond 2000 joints.
 std::size_t peopleIn(const Skeleton& skeleton);
+std::size_t peopleMoved(const Motion& motion);  ///< likewise, in the first frame
 /// In the first frame: a zero pose may have all bones along one line.
 Rig rigOf(const Motion& motion);
 /// Moves a motion's rig to one of its poses.

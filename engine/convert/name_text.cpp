@@ -7,8 +7,29 @@
 
 namespace vasa {
 
+namespace {
+
+// Of words that files write without a mark between them: leftkidney, renalvein, venacava.
+constexpr std::array<std::string_view, 5> kGluedBefore{"left", "right", "portal", "vena", "cava"};
+constexpr std::array<std::string_view, 10> kGluedBehind{"left",    "right",  "vein",     "veins", "vessel",
+                                                        "vessels", "artery", "arteries", "sinus", "cava"};
+constexpr std::size_t kLeastGlued = 3;  // letters of the other word
+
+std::string unglued(std::string_view word) {
+  const auto leaves = [&](std::string_view part) { return word.size() >= part.size() + kLeastGlued; };
+  for (const std::string_view part : kGluedBefore)
+    if (word.starts_with(part) && leaves(part))
+      return std::string(part) + ' ' + unglued(word.substr(part.size()));
+  for (const std::string_view part : kGluedBehind)
+    if (word.ends_with(part) && leaves(part))
+      return unglued(word.substr(0, word.size() - part.size())) + ' ' + std::string(part);
+  return std::string(word);
+}
+
+}  // namespace
+
 NameText::NameText(std::string_view name) : raw(name), words(" ") {
-  for (const std::string& word : nameWords(name)) words += word + ' ';
+  for (const std::string& word : nameWords(name)) words += unglued(word) + ' ';
 }
 
 bool saysAny(const NameText& name, std::string_view list) {

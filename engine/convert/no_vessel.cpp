@@ -29,7 +29,7 @@ constexpr std::array kInVessels{
     Names{
         NoVessel::finding, "English",
         "thrombus, thrombi, thrombosis, clot, clots, embolus, emboli, embolism*, calcification, calcifications, "
-        "calc, plaque, plaques, hematoma, haematoma"},
+        "calc, plaque, plaques, hematoma, haematoma, hemorrhage, haemorrhage, effusion"},
     Names{
         NoVessel::finding, "others",
         "gerinnsel, *verkalkung*, calcificacion, calcificaciones, calcificacao, calcificacoes, "
@@ -49,7 +49,7 @@ constexpr std::string_view kHaving =
     "with, without, after, before, pre, no, in, to, from, of, at, near, above, below, and, incl, including, "
     "excluding, minus, mit, ohne, nach, vor, inkl, avec, sans, apres, avant, con, sem, senza";
 // Likewise, but where they are abbreviations: "A. coronaria sin. Stent", "A. carotis com. Plaque".
-constexpr std::string_view kHavingOrShort = "post, sin, com";
+constexpr std::string_view kHavingOrShort = "post, sin, com", kCommunicating = "a com, p com";
 
 // What has vessels that are called after it: "liver vessels", "kidney_RA". Whole words where a vessel's
 // adjective begins like it: vertebral, bronchial, ovarian, cystic, inferior thyroid.
@@ -59,11 +59,14 @@ constexpr std::array kInBodies{
           "oesophagus, trachea, windpipe, bronchus, bronchi, larynx, pharynx, tongue, thymus, gland, glands, "
           "bowel, duodenum, jejunum, ileum, cecum, caecum, colon, intestine, intestines, rectum, prostate, "
           "uterus, ovary, ovaries, testis, brain, cerebrum, cerebellum, brainstem, spinal cord, lung, lungs, "
-          "diaphragm, eye, eyes, ureter, ureters, airway, airways, organ, organs"},
+          "diaphragm, eye, eyes, ureter, ureters, airway, airways, organ, organs, hypopharynx, nasal cavity, "
+          "auditory canal, palate, lobe, lobes, renal pyramid"},
     Names{NoVessel::organ, "Latin",
           "hepar, ren dext*, ren sinist*, renes, lien, pulmo, pulmones, gaster, ventriculus, vesica, "
           "encephalon, glandula"},
-    Names{NoVessel::organ, "German", "leber, niere, nieren, milz, lunge, lungen, gehirn, magen, darm"},
+    Names{NoVessel::organ, "German",
+          "leber, niere, nieren, milz, lunge, lungen, gehirn, magen, darm, blase, gallenblase, harnblase, "
+          "bauchspeicheldruse"},
     Names{NoVessel::organ, "French", "foie, rein, reins, poumon, poumons, cerveau, estomac"},
     Names{NoVessel::organ, "Spanish", "higado, rinon, rinones, bazo, pulmon, cerebro"},
     Names{NoVessel::organ, "Portuguese", "figado, pulmao"},
@@ -71,18 +74,23 @@ constexpr std::array kInBodies{
     Names{NoVessel::organ, "Chinese, Japanese, Korean", "肝, 腎, 肾, 脾, 肺, 신장"},
     Names{NoVessel::organ, "Russian",
           "печень, почка, легк, лёгк, Печень, Почка, Легк, Лёгк, селезенка, селезёнка, Селезенка, Селезёнка"},
-    Names{NoVessel::heart, "English", "heart, atrium, atrial appendage, ventricle, myocardium"},
+    Names{NoVessel::heart, "English", "heart, atrium, atrial appendage, ventricle, myocardium, septum"},
     Names{NoVessel::heart, "others",
           "herz, ceur, coeur, corazon, coracao, cuore, 心臓, 心脏, 심장, сердце, Сердце"},
     Names{
         NoVessel::bone, "English",
         "bone*, skeleton, spine, skull, vertebra, vertebrae, rib, ribs, sternum, sacrum, femur, tibia, fibula, humerus, "
-        "ulna, patella, mandible, maxilla, scapula, clavicle, pelvis, hip, cartilage*, tooth, teeth, disc"},
+        "ulna, radius, patella, mandible, maxilla, scapula, clavicle, pelvis, hip, cartilage*, tooth, teeth, disc, "
+        "hyoid, zygomatic arch, styloid process, phalanx, phalanges, carpals, metacarpals, tarsals, metatarsals"},
     Names{NoVessel::bone, "Latin", "clavicula, costa, costae, os, ossa, cranium"},
     Names{NoVessel::bone, "German", "knochen, rippe, wirbel, schadel, becken"},
     Names{NoVessel::bone, "Spanish, Portuguese, Italian", "hueso, huesos, osso"},
     Names{NoVessel::bone, "Chinese, Japanese, Russian", "骨, кост, Кост"},
-    Names{NoVessel::tissue, "English", "muscle*, gluteus, iliopsoas, autochthon, skin, fat, nerve*, pleura"},
+    Names{
+        NoVessel::tissue, "English",
+        "muscle*, gluteus, iliopsoas, autochthon, skin, fat, nerve*, pleura, sternocleidomastoid, trapezius, "
+        "platysma, quadriceps, biceps, triceps, deltoid, sartorius, masseter, pectoralis, latissimus, supraspinatus, "
+        "infraspinatus, subscapularis, levator, body trunc, body extremities, torso"},
     Names{NoVessel::tissue, "Latin", "musculus, musculi, nervus, nervi, ligamentum, cutis"},
     Names{NoVessel::tissue, "German, French, Spanish", "muskel, peau, piel"},
     Names{NoVessel::finding, "English", "tumor*, tumour*, cyst, cysts, lesion*, calcif*, thromb*"},
@@ -135,7 +143,8 @@ NoVessel lyingInVessel(NameText name) {
         name.words.erase(at + 1);
   };
   cutBehind(kHaving);
-  if (name.raw.find('.') == name.raw.npos && shortForm(name).empty()) cutBehind(kHavingOrShort);
+  if (name.raw.find('.') == name.raw.npos && shortForm(name).empty() && !saysAny(name, kCommunicating))
+    cutBehind(kHavingOrShort);
   return foundIn(name, kInVessels);
 }
 

@@ -41,7 +41,7 @@ VesselKind kindInWords(const NameText& name) {
       "*thyrocervical*, *thyreocervical*, *costocervical*, *palmar arch*, *plantar arch*, *carpal arch*, "
       "*intestinal arcade*, *ramus interventricularis*, *r interventricularis*, *ramus circumflexus*, "
       "*r circumflexus*, lad, rca, lcx, rcx, riva, pda, cca, ica, eca, mca, aca, pca, acom, pcom, a com, "
-      "p com, a co a, p co a, acoa, pcoa, pica, aica, sma, ima, cia, eia, iia, cfa, sfa, lpa, rpa, 動脈, "
+      "p com, a co a, p co a, acoa, pcoa, pica, aica, sma, ima, cia, eia, iia, cfa, sfa, lpa, rpa, mpa, sca, bca, bct, ao, 動脈, "
       "动脉, 動静脈, 动静脉, 動靜脈, 동맥, 동정맥, ртери, АРТЕРИ, аорт, Аорт, АОРТ, 腹腔干, 头臂干, "
       "ревный ствол, еголовной ствол, очный ствол";
   constexpr std::string_view kVein =

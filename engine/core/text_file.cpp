@@ -14,6 +14,9 @@ bool isBinary(char character) {
   return byte < 0x20 && !(byte >= '\t' && byte <= '\r') && byte != 0x1a;
 }
 
+// Of DOS, and of programs that pad files.
+constexpr std::string_view kEndMarks("\0\x1a", 2);
+
 // Line by line: a file that several programs wrote may have both.
 std::string utf8ByLines(std::string_view text) {
   std::string out;
@@ -39,6 +42,9 @@ bool isUtf16(std::string_view text) {
 Result<std::string_view> plainText(std::string_view text, const std::string& name, std::string& kept) {
   if (isUtf16(text)) return badInput(name + ": " + kNotUtf8);
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  if (const std::string_view shorter = text.substr(0, text.find_last_not_of(kEndMarks) + 1);
+      shorter.size() < text.size() && std::ranges::none_of(shorter, isBinary))
+    text = shorter;
   const bool windows = !isUtf8(text) && std::ranges::none_of(text, isBinary),
              oldMac = text.find('\r') != text.npos && text.find('\n') == text.npos;
   if (!windows && !oldMac) return text;

@@ -12,7 +12,8 @@ namespace vasa {
 /// Whether a text is UTF-16: by its byte order mark, or by zeros in every other one of its first bytes.
 bool isUtf16(std::string_view text);
 
-/// The text behind a byte order mark. Where no line feed ends a line, carriage returns do (as on old Macs):
+/// The text behind a byte order mark, without marks of an end (Ctrl-Z, zeros) where it has no other bytes of
+/// numbers. Where no line feed ends a line, carriage returns do (as on old Macs):
 /// then line feeds stand in their places, and each line has its number as elsewhere. Lines that are no
 /// UTF-8 are taken for those of Windows in the west (code page 1252, Latin-1), unless the text holds numbers
 /// as bytes. Fails with badInput where the text is UTF-16.

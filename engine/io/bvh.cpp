@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "body/clip.h"
+#include "body/motion_units.h"
+#include "body/rig.h"
 #include "core/atomic_file.h"
 #include "core/letters.h"
 #include "core/log.h"
@@ -20,7 +22,8 @@ constexpr int kDeepest = 256;
 constexpr double kRadians = 3.14159265358979323846 / 180;
 constexpr double kFarthest = 1e9;  // in any unit
 // No motion is recorded at less than a frame a second, and any is in milliseconds at more than 1 of them.
-constexpr double kLongestFrame = 1;  // [s]
+constexpr double kLongestFrame = 1;                       // [s]
+constexpr double kFewestFrames = 20, kMostFrames = 1000;  // a second
 
 struct BrokenLine {
   std::size_t line;
@@ -182,7 +185,11 @@ class Parser {
     if (seconds > kLongestFrame)
       breaks("the frame time of " + numberText(seconds) +
              " s is longer than a second; it is in seconds, not milliseconds: write " +
-             numberText(std::round(1e4 * seconds) / 1e7) + " if it was meant as those");
+             numberText(std::round(1e4 * seconds) / 1e7) + " if it was meant as those" +
+             (seconds >= kFewestFrames && seconds <= kMostFrames
+                  ? ", and " + numberText(std::round(1e6 / seconds) / 1e6) +
+                        " if it was meant as frames a second"
+                  : ""));
     motion_.framesPerSecond = float(likelyRate(1 / seconds));
     const std::size_t total = motion_.frameCount * motion_.joints.size();
     // A value is two bytes of text at least: what is promised but not there costs no memory.
@@ -310,6 +317,23 @@ class Parser {
   Motion motion_;
 };
 
+// What a motion that is well formed may still have wrong, and what is done about it.
+Motion inOrder(Motion motion) {
+  const auto warn = [&](const std::string& what) { logWarning(motion.name + ": " + what); };
+  if (const std::size_t people = peopleMoved(motion); people > 1)
+    warn("it holds " + std::to_string(people) +
+         " people, of whom one moves a body; export each into a file of its own");
+  const Rig rig = rigOf(motion);
+  if (sidesSwapped(rig))
+    warn(
+        "its feet point backwards for what its joints call left and right: sides seem swapped, and bodies, "
+        "which go by names where no --joint-map says otherwise, are turned around; name them as the person "
+        "sees them");
+  const MotionUnits units = motionUnits(motion, rig.parts.of);
+  if (!units.one()) warn(describeUnits(units));
+  return inOneUnit(std::move(motion), units);
+}
+
 }  // namespace
 
 Result<Motion> parseBvh(std::string_view text, const std::string& name) {
@@ -317,7 +341,7 @@ Result<Motion> parseBvh(std::string_view text, const std::string& name) {
   const auto plain = plainText(text, name, kept);
   if (!plain) return plain.error();
   try {
-    return Parser(*plain, name).run();
+    return inOrder(Parser(*plain, name).run());
   } catch (const BrokenLine& broken) {
     return badInput(name + ":" + std::to_string(broken.line) + ": " + broken.rule);
   }

@@ -3,8 +3,11 @@
 #include <fstream>
 #include <string_view>
 
+#include "core/atomic_file.h"
 #include "core/letters.h"
 #include "io/markups.h"
+#include "io/vtk_rule.h"
+#include "io/vtp.h"
 #include "io/words.h"
 
 namespace vasa {
@@ -94,11 +97,12 @@ ToldFrame toldFrame(const std::filesystem::path& path) {
   ToldFrame told;
   if (says("uses centimeters as units") || says("UNITS=cm")) told.metresPerUnit = 0.01;
   if (says("UNITS=mm")) told.metresPerUnit = 0.001;
-  // .vtp files have the axes as data: the letters' numbers.
-  const std::size_t data = head.find("Name=\"SPACE\"");
-  const bool ras = data != head.npos && head.substr(data, 300).find(" 82 65 83") != head.npos;
-  if (says("SPACE=LPS") || data != head.npos) told.up = ImportFrame::Up::z;
-  if (says("SPACE=RAS") || ras) told.up = ImportFrame::Up::zBackwards;
+  // .vtp files have the axes as data, packed as all others are.
+  std::string space;
+  if (says("Name=\"SPACE\""))
+    if (const auto bytes = readFile(path, vtk::kMaximumBytes)) space = vtpSpace(*bytes);
+  if (says("SPACE=LPS") || space == "LPS") told.up = ImportFrame::Up::z;
+  if (says("SPACE=RAS") || space == "RAS") told.up = ImportFrame::Up::zBackwards;
   return told;
 }
 

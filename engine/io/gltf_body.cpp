@@ -378,6 +378,7 @@ Body bodyOf(const Asset& asset) {
   Body body;
   body.name = asset.name;
   checkExpandedSize(asset, tree, kBytesAVertex);
+  warnOfUnseen(asset, tree);
   for (int node = 0; node < int(asset.model.nodes.size()); ++node)
     if (asset.model.nodes[std::size_t(node)].mesh >= 0 && tree.inScene[std::size_t(node)])
       addMeshesOfNode(from, node, body.meshes);

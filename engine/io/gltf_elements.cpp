@@ -144,6 +144,7 @@ std::vector<MeshElement> elementsOf(const Asset& asset) {
   const NodeTree tree = resolveNodes(asset.model);
   std::optional<RestPose> rest;
   checkExpandedSize(asset, tree, sizeof(vec3));
+  warnOfUnseen(asset, tree);
   std::vector<MeshElement> elements;
   for (std::size_t i = 0; i < asset.model.nodes.size(); ++i) {
     const auto& node = asset.model.nodes[i];
@@ -172,7 +173,7 @@ std::vector<MeshElement> elementsOf(const Asset& asset) {
     mustBeFinite(elements.back().mesh.positions, int(i));
     if (!mesh.vessels.empty()) takeApart(mesh.vessels, vessels, elements);
   }
-  if (elements.empty()) breaks("/nodes", "no node of the scene has a mesh", "export the meshes too");
+  if (elements.empty()) breaks("/nodes", "no node that the scene shows has a mesh", "export the meshes too");
   return elements;
 }
 

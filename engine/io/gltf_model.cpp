@@ -29,6 +29,7 @@ struct Aside {
   std::vector<std::vector<Model::VesselLabel>> vessels;  // of every mesh
   std::map<int, Model::Labels> nodeLabels, meshLabels;
   std::map<int, std::string> humanoid;
+  std::vector<int> hidden;
 };
 
 int integerIn(const json& object, const char* key, int otherwise) {
@@ -142,12 +143,20 @@ std::map<int, std::string> humanoidOf(const json& document) {
   return bones;
 }
 
+bool isHidden(const json& node) {
+  const json& visible = memberOf(memberOf(memberOf(node, "extensions"), "KHR_node_visibility"), "visible");
+  return visible.is_boolean() && !visible.get<bool>();
+}
+
 Aside takeAside(const json& document) {
   Aside aside;
   aside.humanoid = humanoidOf(document);
   const json& accessors = listIn(document, "accessors");
   int number = 0;
-  for (const json& node : listIn(document, "nodes")) addLabels(node, number++, aside.nodeLabels);
+  for (const json& node : listIn(document, "nodes")) {
+    if (isHidden(node)) aside.hidden.push_back(number);
+    addLabels(node, number++, aside.nodeLabels);
+  }
   number = 0;
   for (const json& mesh : listIn(document, "meshes")) {
     addLabels(mesh, number++, aside.meshLabels);
@@ -389,6 +398,7 @@ Model modelOf(json document) {
   model.nodeLabels = std::move(aside.nodeLabels);
   model.meshLabels = std::move(aside.meshLabels);
   model.humanoid = std::move(aside.humanoid);
+  model.hidden = std::move(aside.hidden);
   return model;
 }
 

@@ -103,6 +103,7 @@ struct Model {
   std::vector<Animation> animations;
   bool hasScenes = false;
   std::vector<int> sceneNodes;                   // roots of the default scene
+  std::vector<int> hidden;                       // nodes that say so (KHR_node_visibility)
   std::map<int, Labels> nodeLabels, meshLabels;  // of those that have any
   std::map<int, std::string> humanoid;           // nodes that VRM's table says are a human's bones, and which
 };

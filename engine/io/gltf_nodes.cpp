@@ -3,6 +3,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "body/skeleton.h"
+#include "core/log.h"
 
 namespace vasa::gltf {
 namespace {
@@ -51,14 +52,32 @@ NodeTree resolveNodes(const Model& model, float unit) {
   tree.local.resize(count);
   tree.world.resize(count);
   tree.inScene = sceneRoots(model);
+  std::vector<bool> hidden(count, false);
+  for (const int node : model.hidden) hidden[std::size_t(node)] = true;
   for (const int node : tree.order) {
     const auto i = std::size_t(node);
     const int parent = tree.parent[i];
     tree.local[i] = localMatrix(model.nodes[i]);
     tree.world[i] = (parent < 0 ? tree.space : tree.world[std::size_t(parent)]) * tree.local[i];
-    if (parent >= 0 && tree.inScene[std::size_t(parent)]) tree.inScene[i] = true;
+    if (parent >= 0) tree.inScene[i] = tree.inScene[i] || tree.inScene[std::size_t(parent)];
+    if (parent >= 0 && hidden[std::size_t(parent)]) hidden[i] = true;
   }
+  for (std::size_t i = 0; i < count; ++i) tree.inScene[i] = tree.inScene[i] && !hidden[i];
   return tree;
+}
+
+void warnOfUnseen(const Asset& asset, const NodeTree& tree) {
+  std::size_t unseen = 0;
+  std::string first;
+  for (std::size_t i = 0; i < tree.inScene.size(); ++i) {
+    const Model::Node& node = asset.model.nodes[i];
+    if (node.mesh < 0 || tree.inScene[i]) continue;
+    if (unseen++ == 0) first = node.name.empty() ? "node " + std::to_string(i) : node.name;
+  }
+  if (unseen > 0)
+    logWarning(asset.name + ": meshes of " + std::to_string(unseen) +
+               " nodes are hidden, or not in the scene that the file shows first, and left out: '" + first +
+               (unseen > 1 ? "' first" : "'"));
 }
 
 }  // namespace vasa::gltf

@@ -5,6 +5,7 @@
 
 #include "core/atomic_file.h"
 #include "core/cancellation.h"
+#include "core/letters.h"
 #include "core/log.h"
 #include "core/text_file.h"
 #include "io/csv.h"
@@ -18,8 +19,20 @@ constexpr const char* kLine =
     "id type x y z radius parent, with blanks or commas between and decimal points (a radius that is not known "
     "is 0); # begins a comment";
 
+constexpr const char* kColumns[] = {"id", "type", "x", "y", "z", "radius", "parent"};
+// How others begin the names of columns, in small letters; of one letter, whole.
+struct Heading {
+  int column;
+  std::string_view names;
+};
+constexpr Heading kHeadings[] = {
+    {0, " id n node index sample "}, {1, " type t label structure "}, {2, " x "}, {3, " y "}, {4, " z "},
+    {5, " radius r rad "},           {6, " parent p pid par "}};
+
+constexpr bool isMark(char c) { return c == ',' || c == ';'; }
+
 std::string_view nextCell(std::string_view& line) {
-  const std::string_view cell = line.substr(0, line.find(','));
+  const std::string_view cell = line.substr(0, line.find_first_of(",;"));
   line.remove_prefix(std::min(cell.size() + 1, line.size()));
   return csv::trimmed(cell);
 }
@@ -58,21 +71,61 @@ class SwcReader {
     return badInput(name_ + ":" + std::to_string(line) + ": " + what);
   }
 
+  // A line of words before the first sample: the names of columns, or a title.
+  static bool isHeading(std::string_view text) {
+    const std::vector<std::string> words = wordsOfHeading(text);
+    double number = 0;
+    const auto numbers =
+        std::ranges::count_if(words, [&](const std::string& word) { return parseNumber(word, number); });
+    return !words.empty() && std::isalpha(static_cast<unsigned char>(words[0][0])) != 0 && numbers < 5;
+  }
+  static std::vector<std::string> wordsOfHeading(std::string_view text) {
+    std::vector<std::string> words;
+    std::string spaced(text);
+    std::ranges::replace_if(
+        spaced, [](char c) { return isMark(c) || c == '"'; }, ' ');
+    std::string_view rest = spaced;
+    for (std::string_view word = nextWord(rest); !word.empty(); word = nextWord(rest))
+      words.push_back(lowerCase(word));
+    return words;
+  }
+  // Columns are read by their order: names that tell of another one are refused.
+  Result<void> checkHeading(std::string_view text, std::size_t line) const {
+    const std::vector<std::string> words = wordsOfHeading(text);
+    std::vector<int> columns;
+    for (const std::string& word : words) {
+      const auto found = std::ranges::find_if(kHeadings, [&](const Heading& heading) {
+        return heading.names.find(' ' + word + ' ') != heading.names.npos;
+      });
+      columns.push_back(found == std::end(kHeadings) ? -1 : found->column);
+    }
+    const auto known = std::ranges::count_if(columns, [](int column) { return column >= 0; });
+    const auto place = [&](int column) { return std::ranges::find(columns, column) - columns.begin(); };
+    if (known < 3) return {};  // a title
+    for (int column = 0; column < 7; ++column)
+      if (const auto at = place(column); at != column && at < std::ssize(columns))
+        return fail(line, std::string("the ") + kColumns[column] + " is in column " + std::to_string(at + 1) +
+                              "; order the columns: " + kLine);
+    if (std::ranges::any_of(words, [](const std::string& word) { return word.starts_with("diam"); }))
+      return fail(line, std::string("gives diameters; write radii: ") + kLine);
+    return {};
+  }
+
   Result<void> readLine(std::string_view text, std::size_t line) {
-    static constexpr const char* kColumns[] = {"id", "type", "x", "y", "z", "radius", "parent"};
     text = text.substr(0, text.find('#'));
-    // Tables of spreadsheets divide columns by commas, and may begin with their names; fewer commas are
-    // decimal ones, which are refused.
-    const bool table = std::ranges::count(text, ',') >= 6;
-    if (text.find_first_not_of(" \t\r,") == text.npos) return {};
-    const auto first = static_cast<unsigned char>(csv::trimmed(text)[0]);
-    if (table && rows_.empty() && (std::isalpha(first) || first == '"')) return {};
+    // Tables of spreadsheets divide columns by commas or semicolons; fewer commas are decimal ones, which are
+    // refused.
+    const bool table = std::ranges::count_if(text, isMark) >= 6;
+    if (text.find_first_not_of(" \t\r,;") == text.npos) return {};
+    if (rows_.empty() && isHeading(text)) return checkHeading(text, line);
     double value[7];
     for (int column = 0; column < 7; ++column) {
       const std::string_view word = table ? nextCell(text) : nextWord(text);
       if (word.empty())
         return fail(line, std::string("the ") + kColumns[column] + " is missing; a line is: " + kLine);
-      if (!parseNumber(word, value[column]))
+      if (column == 5 && sameLetters(word, "nan"))
+        value[column] = 0;  // not known
+      else if (!parseNumber(word, value[column]))
         return fail(line, std::string("the ") + kColumns[column] + " must be a finite number, found '" +
                               std::string(word.substr(0, 40)) + "'; a line is: " + kLine);
     }
@@ -111,7 +164,7 @@ class SwcReader {
 
   Result<void> linkParents() {
     for (Row& row : rows_) {
-      if (row.parentId < 0) continue;
+      if (row.parentId < 0 || row.parentId == row.sample.id) continue;  // a root, also of those who name it
       if (row.parentId == 0 && rows_[byId_.front()].sample.id > 0) continue;  // some call that a root
       const auto found = std::ranges::lower_bound(byId_, row.parentId, {},
                                                   [this](std::uint32_t i) { return rows_[i].sample.id; });

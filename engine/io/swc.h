@@ -20,10 +20,12 @@ struct SwcSample {
 };
 
 /// The samples of an SWC file in the file's order, a forest. Comments are passed over, as are columns after
-/// the seventh. A radius of zero, which tracing programs write where they could not measure, becomes that of
-/// the nearest sample towards the root that has one, or else of the first child, with a warning. Fails with
-/// badInput, naming file and line: a line without seven numbers, a number that is not finite, an id that is
-/// used twice, a parent that does not exist, a negative radius, parents in a circle, no samples.
+/// the seventh and lines of words before the first sample, unless they name the columns in another order. A
+/// sample whose parent is itself is a root. A radius of zero (or nan), which tracing programs write where
+/// they could not measure, becomes that of the nearest sample towards the root that has one, or else of the
+/// first child, with a warning. Fails with badInput, naming file and line: a line without seven numbers, a
+/// number that is not finite, an id that is used twice, a parent that does not exist, a negative radius,
+/// parents in a circle, no samples.
 Result<std::vector<SwcSample>> readSwc(const std::filesystem::path& path, const ImportFrame& frame = {});
 
 /// The same from text. @param name  for messages

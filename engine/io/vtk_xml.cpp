@@ -47,10 +47,9 @@ std::string_view attribute(const XMLElement& element, const char* name) {
   return value ? value : "";
 }
 
-const XMLElement* arrayNamed(const XMLElement* parent, std::string_view name) {
+const XMLElement* arrayNamed(const XMLElement* parent, std::string_view name, const char* element) {
   if (!parent) return nullptr;
-  for (const XMLElement* e = parent->FirstChildElement("DataArray"); e;
-       e = e->NextSiblingElement("DataArray"))
+  for (const XMLElement* e = parent->FirstChildElement(element); e; e = e->NextSiblingElement(element))
     if (attribute(*e, "Name") == name) return e;
   return nullptr;
 }

@@ -15,8 +15,11 @@ namespace vasa::vtk {
 
 /// Empty where there is none.
 std::string_view attribute(const tinyxml2::XMLElement& element, const char* name);
+/// Elements of arrays that hold anything but numbers.
+inline constexpr const char* kNoNumbers = "Array";
 /// Null where there is none.
-const tinyxml2::XMLElement* arrayNamed(const tinyxml2::XMLElement* parent, std::string_view name);
+const tinyxml2::XMLElement* arrayNamed(const tinyxml2::XMLElement* parent, std::string_view name,
+                                       const char* element = "DataArray");
 /// An attribute that says how many there are; 0 without it. Breaks a rule where it is no number up to 2^26.
 std::int64_t countOf(const tinyxml2::XMLElement& piece, const char* name, const std::string& place);
 

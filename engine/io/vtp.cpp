@@ -83,6 +83,16 @@ class VtpReader {
           if (chooseRadius(scalarsOf(piece->FirstChildElement(kind)).names)) return true;
     return false;
   }
+  std::string space() {
+    const XMLElement* fields = file_.polyData().FirstChildElement("FieldData");
+    const XMLElement* array = vtk::arrayNamed(fields, "SPACE", vtk::kNoNumbers);
+    std::string text;
+    if (!array) return text;
+    const Numbers letters = file_.letters(*array, "/VTKFile/PolyData/FieldData/SPACE");
+    for (std::size_t i = 0; i < letters.size() && letters[i] > 0 && letters[i] < 128; ++i)
+      text += char(letters[i]);
+    return text;
+  }
   std::string remark;  ///< on what was read
 
  private:
@@ -129,9 +139,7 @@ class VtpReader {
 
   void readNames(const XMLElement& fields) {
     const std::string place = "/VTKFile/PolyData/FieldData/VesselNames";
-    // What VTK calls arrays of anything but numbers.
-    const XMLElement* array = fields.FirstChildElement("Array");
-    while (array && attribute(*array, "Name") != "VesselNames") array = array->NextSiblingElement("Array");
+    const XMLElement* array = vtk::arrayNamed(&fields, "VesselNames", vtk::kNoNumbers);
     if (!array || attribute(*array, "type") != "String") return;
     const Numbers letters = file_.letters(*array, place);
     std::string text;
@@ -307,6 +315,14 @@ bool vtpTellsRadii(std::span<const std::byte> bytes) {
     return VtpReader(bytes, {}).tellsRadii();
   } catch (const BrokenRule&) {
     return true;
+  }
+}
+
+std::string vtpSpace(std::span<const std::byte> bytes) {
+  try {
+    return VtpReader(bytes, {}).space();
+  } catch (const BrokenRule&) {
+    return {};
   }
 }
 

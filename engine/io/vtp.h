@@ -42,6 +42,10 @@ Result<VtpLines> parseVtp(std::span<const std::byte> bytes, const std::string& n
 /// Whether a piece with lines has an array of radii; true, too, where the file cannot be read.
 bool vtpTellsRadii(std::span<const std::byte> bytes);
 
+/// What 3D Slicer says of a file's axes, in any encoding: "LPS" or "RAS"; empty where nothing is said, or it
+/// cannot be read.
+std::string vtpSpace(std::span<const std::byte> bytes);
+
 /// The polygons and strips of such a file, cut into triangles; empty where there are none. Fails in the same
 /// way.
 Result<TriangleMesh> parseVtpSurface(std::span<const std::byte> bytes, const std::string& name,

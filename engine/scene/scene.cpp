@@ -76,7 +76,7 @@ Result<void> addMotion(const SceneFile& file, Body& body) {
   auto done = retargeted(*motion, body, map);
   if (!done) return done.error();
   const std::string match = file.clip + ": " + describeMatch(*done);
-  if (done->sureness < kLeastSureness)
+  if (done->sureness < kLeastSureness || !done->stands)
     logWarning(match);  // a map is taken at its word
   else
     logInfo(match);

@@ -26,6 +26,8 @@
 namespace vasa {
 namespace {
 
+constexpr float kTallestPerson = 2.2f;  // [m]
+
 bool isVtk(const std::filesystem::path& path) {
   return extensionOf(path) == ".vtp" || extensionOf(path) == ".vtk";
 }
@@ -152,13 +154,18 @@ LikelyUnit likelyUnit(const Aabb& bounds, const std::filesystem::path& path) {
   if (const double told = toldFrame(path).metresPerUnit; told > 0 && bounds.size() * told <= kTallestBody)
     return {told, told < 0.01 ? "millimetres, as its head says" : "centimetres, as its head says"};
   if (bounds.size() <= kTallestBody && farthest(bounds) <= kFarthestBody) return {1, {}};
+  if (const float high = 1e-3f * bounds.size(); high > kTallestBody)
+    return {1e-6, fmt::format("micrometres, as in millimetres they would be {:.0f} m large", high)};
   return {0.001, "millimetres, as in metres " + sizeInMetres(bounds)};
 }
 
 std::string sizeInMetres(const Aabb& bounds) {
-  return bounds.size() > kTallestBody
-             ? fmt::format("they would be {:.0f} m large", bounds.size())
-             : fmt::format("they would lie {:.0f} m from the origin", farthest(bounds));
+  if (bounds.size() <= kTallestBody)
+    return fmt::format("they would lie {:.0f} m from the origin", farthest(bounds));
+  std::string said = fmt::format("they would be {:.0f} m large", bounds.size());
+  if (const float inCentimetres = 0.01f * bounds.size(); inCentimetres <= kTallestPerson)
+    said += fmt::format(" (in centimetres {:.2g} m)", inCentimetres);
+  return said;
 }
 
 bool holdsSurfaces(const std::filesystem::path& path) {

@@ -14,7 +14,8 @@ namespace vasa {
 
 /// The one rule for files whose formats have no unit: what the file's head says (io/foreign_files.h), unless
 /// that makes it taller than kTallestBody; else metres, or millimetres where in metres it would be taller
-/// than that or farther from the origin than kFarthestBody, as one vessel of a scan is.
+/// than that or farther from the origin than kFarthestBody, as one vessel of a scan is, or micrometres where
+/// in millimetres it would be taller.
 /// @param bounds  of all vessels, in the file's unit
 /// @param path    of the file, or the first of several
 struct LikelyUnit {
@@ -23,7 +24,8 @@ struct LikelyUnit {
 };
 LikelyUnit likelyUnit(const Aabb& bounds, const std::filesystem::path& path);
 constexpr float kTallestBody = 4, kFarthestBody = 40;  ///< [m]
-/// Why: "they would be 706 m large", or "they would lie 706 m from the origin".
+/// Why: "they would be 706 m large", "they would be 31 m large (in centimetres 0.31 m)", which may be meant,
+/// or "they would lie 706 m from the origin".
 std::string sizeInMetres(const Aabb& bounds);
 
 /// What such files leave open.

@@ -4,6 +4,7 @@
 
 #include "body/doll.h"
 #include "body/motion_rest.h"
+#include "body/motion_units.h"
 #include "body/retarget.h"
 #include "body/rig.h"
 #include "io/bvh.h"
@@ -300,4 +301,20 @@ TEST_CASE("what fits by few joints is refused with how sure it is and what helps
   if (done.ok()) FAIL(describeMatch(*done));
   CHECK_MESSAGE(done.error().message.find("% sure") != std::string::npos, done.error().message);
   CHECK(done.error().message.find("vasa map BODY MOTION") != std::string::npos);
+}
+
+TEST_CASE("where nobody stands, in the zero pose or any frame, that is said and counts against it") {
+  const Body body = dollBody("cmu");
+  auto motion = parseBvh(dollMotion({.family = "mixamo", .zero = DollDialect::Zero::oneAxis}), "doll.bvh");
+  REQUIRE(motion.ok());
+  CHECK(retargeted(*motion, body)->stands);
+  for (std::size_t frame = 0; frame < motion->frameCount; ++frame)
+    for (std::size_t j = 1; j < motion->joints.size(); ++j) {
+      quat& turn = motion->rotations[frame * motion->joints.size() + j];
+      turn = turn * glm::angleAxis(1.2f + 0.4f * float(j), glm::normalize(vec3(j % 2, 1, j % 3)));
+    }
+  const auto done = retargeted(*motion, body);
+  const std::string said = done ? describeMatch(*done) : done.error().message;
+  CHECK_MESSAGE(said.find("nobody stands") != said.npos, said);
+  CHECK_MESSAGE((!done || done->sureness < 0.75f), said);
 }

@@ -65,6 +65,24 @@ mat3 zeroTurn(const std::string& part, DollDialect::Zero zero) {
   return turnAbout(glm::cross(bone, vec3(0, 1, 0)), std::acos(cosine) * 180 / kPi);
 }
 
+// From the hips to an ankle.
+vec3 legOf(const std::string& side, int frame) {
+  vec3 leg = performed("hips", frame) * (named(side + "UpperLeg").place - named("hips").place);
+  for (const char* bone : {"UpperLeg", "LowerLeg"})
+    leg += performed(side + bone, frame) * boneOf(indexOf(side + bone));
+  return leg;
+}
+
+vec3 hipsPlace(const DollDialect& dialect, int frame) {
+  if (!dialect.glides) return {0.02f * float(frame), 0.95f, 0.03f * float(frame)};
+  vec3 place(0, 0.95f, 0);
+  for (int before = 0; before < frame; ++before) {
+    const std::string foot = legOf("left", before).y < legOf("right", before).y - 1e-3f ? "left" : "right";
+    place += (1 - *dialect.glides) * (legOf(foot, before) - legOf(foot, before + 1));
+  }
+  return place;
+}
+
 const mat3 kLaysUp(vec3(1, 0, 0), vec3(0, 0, 1), vec3(0, -1, 0));  // +Y -> +Z, +Z -> -Y
 
 constexpr int kStill = -1;  // a joint that only goes along
@@ -228,7 +246,7 @@ std::string dollMotion(const DollDialect& dialect, int frames) {
       }
       const int parent = parts[std::size_t(part)].parent;
       if (parent < 0) {
-        const vec3 place = vec3(0.02f * float(frame), 0.95f, 0.03f * float(frame));
+        const vec3 place = float(dialect.rootTimes) * hipsPlace(dialect, frame);
         const vec3 told =
             dialect.rootTurnsUp ? float(dialect.unitsAMetre) * (kLaysUp * place) : writer.inFile(place);
         writer.numbers(told);

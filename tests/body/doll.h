@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct DollDialect {
   /// Without joints at the wrists: an End Site is there, or not even that.
   enum class Arms { whole, endAtWrist, endAtElbow } arms = Arms::whole;
   bool sword = false;  ///< two more joints in the right hand
+  /// Its lower foot stays where it stands, but for this part of the way; else it glides along.
+  std::optional<float> glides = {};
+  double rootTimes = 1;  ///< the root's places are so many times as large as in the unit
 };
 
 struct DollPart {

@@ -41,6 +41,19 @@ std::string object(const char* name, const TriangleMesh& mesh, float scale = 1, 
   return text;
 }
 
+void addMesh(GltfBuilder& file, const TriangleMesh& mesh) {
+  std::vector<float> places;
+  std::vector<std::uint32_t> corners;
+  for (const vec3& p : mesh.positions) places.insert(places.end(), {p.x, p.y, p.z});
+  for (const uvec3& t : mesh.triangles) corners.insert(corners.end(), {t.x, t.y, t.z});
+  const int positions = file.floats(places, "VEC3");
+  const Aabb box = mesh.bounds();
+  auto& told = file.document["accessors"][std::size_t(positions)];
+  told["min"] = {box.low.x, box.low.y, box.low.z}, told["max"] = {box.high.x, box.high.y, box.high.z};
+  const int indices = file.accessor(corners, "SCALAR", GltfBuilder::kUnsignedInt, corners.size());
+  file.add("meshes", {{"primitives", {{{"attributes", {{"POSITION", positions}}}, {"indices", indices}}}}});
+}
+
 const TriangleMesh& tube() {
   static const TriangleMesh mesh = tubeBetween({0, 0, 0}, {0, 0.1f, 0}, 0.004f);
   return mesh;
@@ -104,6 +117,43 @@ TEST_CASE("models of 3D Slicer tell their axes in their heads") {
   CHECK(made("untold.vtk", "vtk output", 1).extent().z > 0.19f);  // along +Z, as it is
 }
 
+TEST_CASE("a .vtp file of 3D Slicer tells its axes, however it is packed") {
+  const Files files;
+  const auto high = [&](const char* space) {
+    std::string points, rows;
+    for (int i = 0; i <= 20; ++i)
+      points += "0 " + std::to_string(-20 + 2 * i) + " " + std::to_string(10 * i) + "\n",
+          rows += " " + std::to_string(i);
+    const auto array = [](const char* head, const std::string& text) {
+      return std::string("<DataArray ") + head + " format=\"ascii\">" + text + "</DataArray>";
+    };
+    const auto file = files.write(
+        "a.vtp",
+        "<VTKFile type=\"PolyData\" byte_order=\"LittleEndian\"><PolyData><FieldData><Array type=\"String\" "
+        "Name=\"SPACE\" NumberOfTuples=\"1\" " +
+            std::string(space) +
+            "</Array></FieldData><Piece NumberOfPoints=\"21\" NumberOfLines=\"1\"><PointData>" +
+            array("type=\"Float32\" Name=\"Radius\"", "4 4 4 4 4 4 4 4 4 4 4 4 4 4 4 4 4 4 4 4 4") +
+            "</PointData><Points>" + array("type=\"Float32\" NumberOfComponents=\"3\"", points) +
+            "</Points><Lines>" + array("type=\"Int32\" Name=\"connectivity\"", rows) +
+            array("type=\"Int32\" Name=\"offsets\"", "21") + "</Lines></Piece></PolyData></VTKFile>");
+    const auto net = files.path("a.vasa");
+    const auto done = runProgram({"convert", file, "--kind", "artery", "-o", net});
+    REQUIRE_MESSAGE(done.exit == 0, done.err);
+    const auto network = readNetwork(net);
+    REQUIRE(network.ok());
+    // The line rises and, where +Y of the file is the back, leads backwards.
+    const auto& points3 = network->points();
+    const vec4 low = points3.front().y < points3.back().y ? points3.front() : points3.back();
+    CHECK(measure(*network, points3).bounds.extent().y > 0.19f);
+    return low.z;
+  };
+  CHECK(high("format=\"ascii\">76 80 83 0") > 0.01f);
+  CHECK(high("format=\"ascii\">82 65 83 0") < -0.01f);
+  CHECK(high("format=\"binary\">BAAAAExQUwA=") > 0.01f);
+  CHECK(high("format=\"binary\">BAAAAFJBUwA=") < -0.01f);
+}
+
 TEST_CASE("what a file's head says of its unit is taken, unless it were no person's") {
   const Files files;
   const auto high = [&](const char* head, float scale) {
@@ -152,17 +202,7 @@ TEST_CASE("vessels below nodes that are named as limbs are vessels, and a person
   const Files files;
   for (const float radius : {0.004f, 0.08f}) {
     GltfBuilder file;
-    const TriangleMesh mesh = tubeBetween({0, 0, 0}, {0, 0.3f, 0}, radius);
-    std::vector<float> places;
-    std::vector<std::uint32_t> corners;
-    for (const vec3& p : mesh.positions) places.insert(places.end(), {p.x, p.y, p.z});
-    for (const uvec3& t : mesh.triangles) corners.insert(corners.end(), {t.x, t.y, t.z});
-    const int positions = file.floats(places, "VEC3");
-    const Aabb box = mesh.bounds();
-    auto& told = file.document["accessors"][std::size_t(positions)];
-    told["min"] = {box.low.x, box.low.y, box.low.z}, told["max"] = {box.high.x, box.high.y, box.high.z};
-    const int indices = file.accessor(corners, "SCALAR", GltfBuilder::kUnsignedInt, corners.size());
-    file.add("meshes", {{"primitives", {{{"attributes", {{"POSITION", positions}}}, {"indices", indices}}}}});
+    addMesh(file, tubeBetween({0, 0, 0}, {0, 0.3f, 0}, radius));
     addPersonPieces(file);
     for (auto& node : file.document["nodes"]) node["mesh"] = 0;
     file.add("scenes", {{"nodes", {0}}});
@@ -170,6 +210,41 @@ TEST_CASE("vessels below nodes that are named as limbs are vessels, and a person
     REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
     CHECK(outcome.json()["kind"] == (radius < 0.03f ? "surfaces" : "body"));
   }
+}
+
+TEST_CASE("what a glTF file hides, or has in another scene, is left out and named") {
+  const Files files;
+  const nlohmann::json hidden = {{"KHR_node_visibility", {{"visible", false}}}};
+  GltfBuilder file;
+  addMesh(file, tube());
+  file.add("nodes", {{"name", "aorta"}, {"mesh", 0}});
+  file.add("nodes", {{"name", "old"}, {"children", {2}}, {"extensions", hidden}});
+  file.add("nodes", {{"name", "vena cava"}, {"mesh", 0}, {"translation", {0.1, 0, 0}}});
+  file.add("nodes", {{"name", "spare artery"}, {"mesh", 0}, {"translation", {0.2, 0, 0}}});
+  file.add("scenes", {{"nodes", {0, 1}}});
+  file.add("scenes", {{"nodes", {3}}});
+  const auto outcome = runProgram({"info", files.write("a.glb", file.glb()), "--json"});
+  REQUIRE_MESSAGE(outcome.exit == 0, outcome.err);
+  CHECK(outcome.json()["elements"] == 1);
+  CHECK(outcome.json()["element"][0]["name"] == "aorta");
+  CHECK_MESSAGE(holds(outcome.err,
+                      "a.glb: meshes of 2 nodes are hidden, or not in the scene that the file shows first, "
+                      "and left out: 'vena cava' first"),
+                outcome.err);
+}
+
+TEST_CASE("centimetres are not guessed but named, and micrometres are read as such") {
+  const Files files;
+  const auto said = [&](float scale) {
+    const auto made = runProgram(
+        {"convert", files.write("aorta.obj", object("aorta", tube(), scale)), "-o", files.path("a.vasa")});
+    CHECK_MESSAGE(made.exit == 0, made.err);
+    return made.err;
+  };
+  CHECK_MESSAGE(holds(said(100), "as in metres they would be 10 m large (in centimetres 0.1 m); --unit says"),
+                said(100));
+  CHECK(holds(said(1e5f), "read as micrometres, as in millimetres they would be"));
+  CHECK(!holds(said(1e3f), "centimetres"));
 }
 
 TEST_CASE("a body of two centimetres is warned of") {

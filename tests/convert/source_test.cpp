@@ -242,6 +242,26 @@ TEST_CASE("a vessel's adjective or short form beside an organ's name means the v
     CHECK_MESSAGE(namesNoVessel(named(name), "scan") != NoVessel::none, name);
 }
 
+TEST_CASE("words written without a mark between them are known, too") {
+  for (const char* name :
+       {"leftkidney", "kidneyright", "lefthumerus", "rightatrium", "LEFTLUNG", "interventricular_septum",
+        "hard_palate", "zygomatic_arch_right", "levator_scapulae", "pleural_effusion", "Harnblase"})
+    CHECK_MESSAGE(namesNoVessel(named(name), "scan") != NoVessel::none, name);
+  for (const char* name : {"liver_hepaticvessel", "lungvessels", "leftrenalartery", "kidney_renalvein",
+                           "leftover", "rightmost branch", "cleft", "upright"})
+    CHECK_MESSAGE(namesNoVessel(named(name), "scan") == NoVessel::none, name);
+  for (const auto& [name, kind] : {std::pair("leftrenalvein", VesselKind::vein),
+                                   {"hepaticveins", VesselKind::vein},
+                                   {"portalvein", VesselKind::portalVein},
+                                   {"venacavainferior", VesselKind::vein},
+                                   {"coronarysinus", VesselKind::vein},
+                                   {"leftfemoralartery", VesselKind::artery},
+                                   {"DescAo", VesselKind::artery},
+                                   {"LSCA", VesselKind::artery},
+                                   {"MPA", VesselKind::artery}})
+    CHECK_MESSAGE(kindOf(named(name), "scan") == kind, name);
+}
+
 TEST_CASE("what lies in vessels is none, whatever it lies in; a vessel that has one is one") {
   struct Case {
     const char* name;
@@ -257,6 +277,8 @@ TEST_CASE("what lies in vessels is none, whatever it lies in; a vessel that has 
                                   {"válvula aórtica", NoVessel::heart},
                                   {"Aortenklappe", NoVessel::heart},
                                   {"冠動脈ステント", NoVessel::device},
+                                  {"P com stent", NoVessel::device},
+                                  {"aorta com stent", NoVessel::none},
                                   {"aorta with stent", NoVessel::none},
                                   {"aorta_post_stent", NoVessel::none},
                                   {"aneurysm without thrombus", NoVessel::none},
