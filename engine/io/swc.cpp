@@ -31,8 +31,8 @@ constexpr Heading kHeadings[] = {
 
 constexpr bool isMark(char c) { return c == ',' || c == ';'; }
 
-std::string_view nextCell(std::string_view& line) {
-  const std::string_view cell = line.substr(0, line.find_first_of(",;"));
+std::string_view nextCell(std::string_view& line, char mark) {
+  const std::string_view cell = line.substr(0, line.find(mark));
   line.remove_prefix(std::min(cell.size() + 1, line.size()));
   return csv::trimmed(cell);
 }
@@ -113,14 +113,15 @@ class SwcReader {
 
   Result<void> readLine(std::string_view text, std::size_t line) {
     text = text.substr(0, text.find('#'));
-    // Tables of spreadsheets divide columns by commas or semicolons; fewer commas are decimal ones, which are
-    // refused.
-    const bool table = std::ranges::count_if(text, isMark) >= 6;
+    // Tables of spreadsheets divide columns by semicolons, or else by commas; other commas are decimal ones,
+    // which are refused.
+    const char mark = text.find(';') != text.npos ? ';' : ',';
+    const bool table = std::ranges::count(text, mark) >= 6;
     if (text.find_first_not_of(" \t\r,;") == text.npos) return {};
     if (rows_.empty() && isHeading(text)) return checkHeading(text, line);
     double value[7];
     for (int column = 0; column < 7; ++column) {
-      const std::string_view word = table ? nextCell(text) : nextWord(text);
+      const std::string_view word = table ? nextCell(text, mark) : nextWord(text);
       if (word.empty())
         return fail(line, std::string("the ") + kColumns[column] + " is missing; a line is: " + kLine);
       if (column == 5 && sameLetters(word, "nan"))

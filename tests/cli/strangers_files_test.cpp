@@ -244,7 +244,7 @@ TEST_CASE("centimetres are not guessed but named, and micrometres are read as su
   CHECK_MESSAGE(holds(said(100), "as in metres they would be 10 m large (in centimetres 0.1 m); --unit says"),
                 said(100));
   CHECK(holds(said(1e5f), "read as micrometres, as in millimetres they would be"));
-  CHECK(!holds(said(1e3f), "centimetres"));
+  CHECK(!holds(said(5e3f), "centimetres"));
 }
 
 TEST_CASE("a body of two centimetres is warned of") {
