@@ -378,10 +378,10 @@ Body bodyOf(const Asset& asset) {
   Body body;
   body.name = asset.name;
   checkExpandedSize(asset, tree, kBytesAVertex);
-  warnOfUnseen(asset, tree);
   for (int node = 0; node < int(asset.model.nodes.size()); ++node)
     if (asset.model.nodes[std::size_t(node)].mesh >= 0 && tree.inScene[std::size_t(node)])
       addMeshesOfNode(from, node, body.meshes);
+  if (!body.meshes.empty()) warnOfUnseen(asset, tree);  // where there are none, that is said
   body.clips = readClips(asset, joints.jointOfNode);
   if (!joints.fileRest.empty()) holdFilePose(body.clips, joints.skeleton, joints.fileRest);
   leaveOutStrays(body.clips, joints.skeleton, body.name);
