@@ -44,10 +44,12 @@ TriangleTree::TriangleTree(const TriangleMesh& mesh) : mesh_(mesh), order_(mesh.
   if (order_.empty()) return;
   nodes_.reserve(order_.size());
   nodes_.emplace_back();
-  split(0, 0, std::uint32_t(order_.size()));
+  std::vector<Placed> room(order_.size());
+  split(0, 0, std::uint32_t(order_.size()), room);
 }
 
-void TriangleTree::split(std::uint32_t node, std::uint32_t first, std::uint32_t count) {
+void TriangleTree::split(std::uint32_t node, std::uint32_t first, std::uint32_t count,
+                         std::span<Placed> room) {
   checkpoint();
   Aabb box, centres;
   for (std::uint32_t i = first; i < first + count; ++i) {
@@ -58,17 +60,19 @@ void TriangleTree::split(std::uint32_t node, std::uint32_t first, std::uint32_t 
   if (count <= kLeafSize) return;
   const int axis = centres.longestAxis();
   const std::uint32_t half = count / 2;
-  const auto begin = order_.begin() + first;
-  std::nth_element(begin, begin + half, begin + count, [&](std::uint32_t a, std::uint32_t b) {
-    const float ca = boxes_[a].centre()[axis], cb = boxes_[b].centre()[axis];
-    return ca != cb ? ca < cb : a < b;
+  const std::span<Placed> own = room.subspan(first, count);
+  for (std::uint32_t i = 0; i < count; ++i)
+    own[i] = {boxes_[order_[first + i]].centre()[axis], order_[first + i]};
+  std::nth_element(own.begin(), own.begin() + half, own.end(), [](const Placed& a, const Placed& b) {
+    return a.at != b.at ? a.at < b.at : a.triangle < b.triangle;
   });
+  for (std::uint32_t i = 0; i < count; ++i) order_[first + i] = own[i].triangle;
   const auto children = std::uint32_t(nodes_.size());
   nodes_.resize(nodes_.size() + 2);
   nodes_[node].first = children;
   nodes_[node].count = 0;
-  split(children, first, half);
-  split(children + 1, first + half, count - half);
+  split(children, first, half, room);
+  split(children + 1, first + half, count - half, room);
 }
 
 TriangleTree::Nearest TriangleTree::nearest(vec3 p, float within) const {

@@ -1,5 +1,7 @@
 #pragma once
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "core/ids.h"
 #include "mesh/triangle_mesh.h"
@@ -33,7 +35,11 @@ class TriangleTree {
     Aabb box;
     std::uint32_t first, count;  ///< a leaf's triangles in order_; count 0: children at first and first + 1
   };
-  void split(std::uint32_t node, std::uint32_t first, std::uint32_t count);
+  struct Placed {
+    float at;  // of its box's middle, along an axis
+    std::uint32_t triangle;
+  };
+  void split(std::uint32_t node, std::uint32_t first, std::uint32_t count, std::span<Placed> room);
 
   const TriangleMesh& mesh_;
   std::vector<Aabb> boxes_;
