@@ -112,24 +112,35 @@ const Body& separated() {
   return body;
 }
 
-/// Visits every few frames of each clip, with vertebrae and ribs where they are.
-template <class Visit>
-void forPoses(Visit visit) {
-  const Body& body = separated();
-  std::vector<vec4> places;
-  for (const AxialBone& bone : body.axialBones) places.emplace_back(bone.place, 0.001f);
-  const auto binding = bindPoints(body, places, "axial bones");
-  REQUIRE(binding.ok());
-  Deformer deformer(*binding);
-  std::vector<vec4> moved(places.size());
-  for (const Clip& clip : body.clips)
-    for (std::size_t frame = 0; frame < clip.frameCount(); frame += kFrameStep) {
-      const Pose pose = samplePose(body.skeleton, clip, float(frame) / clip.framesPerSecond);
-      std::vector<mat4> matrices = skinMatrices(body, pose);
-      deformer.run(places, pose, moved);
-      deformer.axialBones(body, std::span(matrices).subspan(body.skeleton.joints.size()));
-      visit(clip, frame, matrices);
-    }
+/// Every few frames of each clip, with vertebrae and ribs where they are.
+struct ClipPose {
+  const Clip& clip;
+  std::size_t frame;
+  std::vector<mat4> matrices;
+};
+
+const std::vector<ClipPose>& clipPoses() {
+  static const std::vector<ClipPose> poses = [] {
+    const Body& body = separated();
+    std::vector<vec4> places;
+    for (const AxialBone& bone : body.axialBones) places.emplace_back(bone.place, 0.001f);
+    const auto binding = bindPoints(body, places, "axial bones");
+    REQUIRE(binding.ok());
+    Deformer deformer(*binding);
+    std::vector<vec4> moved(places.size());
+    std::vector<ClipPose> made;
+    for (const Clip& clip : body.clips)
+      for (std::size_t frame = 0; frame < clip.frameCount(); frame += kFrameStep) {
+        const Pose pose = samplePose(body.skeleton, clip, float(frame) / clip.framesPerSecond);
+        std::vector<mat4> matrices = skinMatrices(body, pose);
+        deformer.run(places, pose, moved);
+        deformer.axialBones(body, std::span(matrices).subspan(body.skeleton.joints.size()));
+        made.push_back({clip, frame, std::move(matrices)});
+      }
+    REQUIRE(!made.empty());
+    return made;
+  }();
+  return poses;
 }
 
 }  // namespace
@@ -147,7 +158,7 @@ TEST_CASE("24 vertebrae and 24 ribs have motions of their own") {
 TEST_CASE("no motion brings a bone out of the skin") {
   std::map<std::string, std::array<float, 2>> worst;  // of a clip and joint: [m] out, frame
   std::vector<vec3> skin, bones;
-  forPoses([&](const Clip& clip, std::size_t frame, const std::vector<mat4>& matrices) {
+  for (const auto& [clip, frame, matrices] : clipPoses()) {
     skinPositions(separated().meshes[0], matrices, skin);
     const TriangleMesh surface{skin, separated().meshes[0].mesh.triangles};
     const Solid solid(surface);
@@ -165,7 +176,7 @@ TEST_CASE("no motion brings a bone out of the skin") {
       auto& entry = worst[clip.name + ": " + madeBody().skeleton.joints[joint].name];
       if (out[i] > entry[0]) entry = {out[i], float(frame)};
     }
-  });
+  }
   for (const auto& [place, entry] : worst)
     if (entry[0] > 0.001f) MESSAGE(place << " " << 1e3f * entry[0] << " mm out in frame " << entry[1]);
   for (const auto& found : worst) {
@@ -181,7 +192,7 @@ TEST_CASE("the surfaces of a joint are never farther apart than cartilage") {
     Bone a = boneNamed(contact.a), b = boneNamed(contact.b);
     float widest = 0, frameOfWidest = 0;
     std::string clipOfWidest;
-    forPoses([&](const Clip& clip, std::size_t frame, const std::vector<mat4>& matrices) {
+    for (const auto& [clip, frame, matrices] : clipPoses()) {
       skinPositions(a.mesh, matrices, a.posed);
       skinPositions(b.mesh, matrices, b.posed);
       const TriangleMesh other{b.posed, b.mesh.mesh.triangles};
@@ -190,7 +201,7 @@ TEST_CASE("the surfaces of a joint are never farther apart than cartilage") {
       for (const vec3 p : a.posed)
         if (const auto place = solid.at(p, gap)) gap = std::min(gap, std::max(place->distance, 0.0f));
       if (gap > widest) widest = gap, frameOfWidest = float(frame), clipOfWidest = clip.name;
-    });
+    }
     if (widest > 0.5f * contact.most)
       MESSAGE(contact.a << ", " << contact.b << ": " << 1e3f * widest << " mm in frame " << frameOfWidest
                         << " of " << clipOfWidest);
