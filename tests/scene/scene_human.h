@@ -2,11 +2,13 @@
 #include <doctest/doctest.h>
 
 #include "scene/scene.h"
+#include "support/kept_once.h"
 
 namespace vasa {
 
-/// The built-in human, read once.
+/// The built-in human, read once; what solving its motions takes is made once, too.
 inline const Scene& human() {
+  static const test::KeptOnce kept;
   static const Result<Scene> scene = [] {
     SceneFile file;
     file.body = VASA_HUMAN_DATA "/human.glb";

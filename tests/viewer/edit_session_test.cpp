@@ -8,6 +8,7 @@
 #include "network/file.h"
 #include "network/measure_profile.h"
 #include "scene/scene_file.h"
+#include "support/kept_once.h"
 #include "support/shared_data.h"
 #include "view/virtual_display.h"
 #include "viewer/app.h"
@@ -32,6 +33,7 @@ std::filesystem::path sceneIn(const std::filesystem::path& folder, const std::st
 }
 
 ViewReport session(const std::filesystem::path& scene, const std::string& script) {
+  const KeptOnce kept;
   auto file = readSceneFile(scene);
   REQUIRE(file);
   auto steps = parseScript(script, "script");
