@@ -15,9 +15,12 @@ T taken(Result<T> result) {
   return std::move(*result);
 }
 
+// What a renderer makes of it is made once for all pictures, too.
 struct Human {
   Scene scene;
+  SweepTable table;
   SceneGrowth growth;
+  BodyLevels levels;
 };
 
 const Human& human() {
@@ -27,8 +30,10 @@ const Human& human() {
     file.networks = {VASA_GOLDEN_DATA "/human.vasa"};
     file.holds = VASA_GOLDEN_DATA "/human.holds.csv";
     Scene scene = taken(loadScene(file));
-    SceneGrowth growth = taken(loadGrowth(scene, VASA_GOLDEN_DATA "/growth", makeSweepTable(scene.network)));
-    return Human{std::move(scene), std::move(growth)};
+    SweepTable table = makeSweepTable(scene.network);
+    SceneGrowth growth = taken(loadGrowth(scene, VASA_GOLDEN_DATA "/growth", table));
+    BodyLevels levels = bodyLevels(scene.body.meshes, &scene.body.skeleton);
+    return Human{std::move(scene), std::move(table), std::move(growth), std::move(levels)};
   }();
   return loaded;
 }
@@ -93,7 +98,9 @@ Image draw(gpu::Device& device, const HumanShot& shot) {
                     {.width = width,
                      .height = height,
                      .pixelError = kAutoPixelError,
+                     .levels = &all.levels,
                      .skeleton = &all.scene.body.skeleton,
+                     .table = &all.table,
                      .supersample = 2,
                      .occlusion = true,
                      .growth = shot.growLevels ? &all.growth : nullptr,
