@@ -14,7 +14,7 @@ struct Forked {
   PatchReport report;
 };
 
-inline Forked forked() {
+inline Forked makeForked() {
   std::vector<SourceElement> elements{source("aorta", forkedSurface())};
   auto conversion = convertElements(elements);
   if (!conversion) return {};
@@ -22,6 +22,12 @@ inline Forked forked() {
   auto network = withPatches(std::move(conversion->network), std::move(kept.patches));
   if (!network) return {};
   return {std::move(elements), std::move(*network), std::move(kept.report)};
+}
+
+/// Made once for all cases of this program.
+inline const Forked& forked() {
+  static const Forked made = makeForked();
+  return made;
 }
 
 /// A network bent about the z axis from y = 0.1 on upwards and downwards, so many radians a metre of height.

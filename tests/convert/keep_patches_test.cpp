@@ -51,7 +51,7 @@ bool sameBytes(const Network& a, const Network& b) { return encodeNetwork(a) == 
 
 TEST_CASE(
     "the wall of a scanned fork is kept, closed with the tubes at rest and bent, whatever their quads") {
-  const Forked made = forked();
+  const Forked& made = forked();
   REQUIRE(made.report.forks.size() == 2);
   for (const PatchReport::Fork& fork : made.report.forks) CHECK(outcomeName(fork.outcome) == "kept");
   REQUIRE(made.network.patches().size() == 2);
@@ -66,7 +66,7 @@ TEST_CASE(
 }
 
 TEST_CASE("no triangle of a patch is folded at rest") {
-  const Forked made = forked();
+  const Forked& made = forked();
   REQUIRE(!made.network.patches().empty());
   for (const ForkPatch& patch : made.network.patches())
     CHECK(foldedTriangles({patch.positions, patch.triangles}).empty());
@@ -80,7 +80,7 @@ TEST_CASE("no triangle of a patch is folded at rest") {
 }
 
 TEST_CASE("at rest a patch is the source's wall, and eases into the tubes beside the rings") {
-  const Forked made = forked();
+  const Forked& made = forked();
   REQUIRE(!made.network.patches().empty());
   const TriangleTree wall(made.elements[0].element.mesh);
   const Network& network = made.network;
@@ -109,7 +109,7 @@ TEST_CASE("at rest a patch is the source's wall, and eases into the tubes beside
 }
 
 TEST_CASE("patches survive files, merging and other shapes; a plain network's file is as it was") {
-  const Forked made = forked();
+  const Forked& made = forked();
   REQUIRE(made.network.patches().size() == 2);
   const auto bytes = encodeNetwork(made.network);
   const auto read = decodeNetwork(bytes, "x.vasa");
@@ -137,7 +137,7 @@ TEST_CASE("patches survive files, merging and other shapes; a plain network's fi
 }
 
 TEST_CASE("what is wrong with a patch is told") {
-  const Forked made = forked();
+  const Forked& made = forked();
   REQUIRE(!made.network.patches().empty());
   ForkPatch patch = made.network.patches()[0];
   const auto fault = [&] { return patchFault(made.network, patch); };
@@ -212,7 +212,7 @@ TEST_CASE("what is wrong with a patch is told") {
 
 TEST_CASE("no signed garbage in a patch makes the reader crash, and what it takes can be drawn") {
   std::mt19937 random(7);
-  const Forked made = forked();
+  const Forked& made = forked();
   const auto good = encodeNetwork(made.network), bare = encodeNetwork(*withPatches(made.network, {}));
   int accepted = 0;
   for (int trial = 0; trial < 4000; ++trial) {
@@ -304,7 +304,7 @@ TEST_CASE("forks whose walls do not meet, and centre lines, are told") {
 }
 
 TEST_CASE("a thinned wall keeps its shape, its loops and its topology") {
-  const Forked made = forked();
+  const Forked& made = forked();
   REQUIRE(!made.network.patches().empty());
   for (ForkPatch patch : made.network.patches()) {
     WallPiece wall{WallFault::none, {patch.positions, patch.triangles}, {}};
@@ -346,7 +346,7 @@ TEST_CASE("the same patches come out for any number of threads") {
   std::vector<std::byte> first;
   for (const unsigned threads : {1u, 3u}) {
     setThreadCount(threads);
-    const auto bytes = encodeNetwork(forked().network);
+    const auto bytes = encodeNetwork(makeForked().network);
     if (first.empty()) first = bytes;
     CHECK(bytes == first);
   }

@@ -58,7 +58,7 @@ bool same(const SurfacePoint& a, const SurfacePoint& b) { return std::memcmp(&a,
 }  // namespace
 
 TEST_CASE("a fan is the triangles around a vertex, in their order; vertices on loops have none") {
-  const Forked made = forked();
+  const Forked& made = forked();
   const PatchTable table = makeSweepTable(made.network).patches;
   REQUIRE(table.patches.size() == 2);
   CHECK(table.firstFan.size() == table.vertices.size() + 1);
@@ -85,7 +85,7 @@ TEST_CASE("a fan is the triangles around a vertex, in their order; vertices on l
 }
 
 TEST_CASE("walls at rest, moved as a whole or bent a little are as their rings carry them, bit for bit") {
-  const Forked made = forked();
+  const Forked& made = forked();
   const Walls walls(made.network);
   std::vector<vec4> turned(made.network.points().begin(), made.network.points().end());
   for (vec4& p : turned) p = vec4(p.z + 0.3f, p.y - 1, -p.x, p.w);
@@ -100,7 +100,7 @@ TEST_CASE("walls at rest, moved as a whole or bent a little are as their rings c
 }
 
 TEST_CASE("a wall that a pose presses together folds less when it is smoothed, and stays closed") {
-  const Forked made = forked();
+  const Forked& made = forked();
   const Walls walls(made.network);
   float before = 0, after = 0;
   for (const float bend : {80.0f, 110.0f, 140.0f}) {
@@ -120,7 +120,7 @@ TEST_CASE("a wall that a pose presses together folds less when it is smoothed, a
 }
 
 TEST_CASE("smoothing sets in gradually as a bend grows") {
-  const Forked made = forked();
+  const Forked& made = forked();
   const Walls walls(made.network);
   const PatchTable& table = walls.table.patches;
   std::vector<std::vector<SurfacePoint>> last;

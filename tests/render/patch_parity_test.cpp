@@ -90,7 +90,7 @@ std::vector<CornerIndices> drawnOf(const test::Drawn& drawn) {
 TEST_CASE(
     "patches' triangles that cannot be seen are left out as the reference says, the others keep their order") {
   VASA_REQUIRE_GPU(rig);
-  const test::Forked made = test::forked();
+  const test::Forked& made = test::forked();
   const std::vector<vec4> points(made.network.points().begin(), made.network.points().end());
   const std::vector<quat> frames = test::framesOf(made.network, points);
   const TubeDetail detail{{7, 3}, 0};
@@ -125,7 +125,7 @@ TEST_CASE(
 
 TEST_CASE("patches on the device are those of the reference and close the surface, at rest and bent") {
   VASA_REQUIRE_GPU(rig);
-  const test::Forked made = test::forked();
+  const test::Forked& made = test::forked();
   REQUIRE(made.network.patches().size() == 2);
   const std::vector<vec3> references = restReferences(made.network);
   for (const float bend : {0.0f, 5.0f}) {
@@ -152,7 +152,7 @@ TEST_CASE("patches on the device are those of the reference and close the surfac
 TEST_CASE(
     "patches that a deep bend presses together are smoothed on the device as the reference does, and stay closed") {
   VASA_REQUIRE_GPU(rig);
-  const test::Forked made = test::forked();
+  const test::Forked& made = test::forked();
   for (const float bend : {20.0f, 45.0f, 80.0f}) {
     const std::vector<vec4> points = test::deepBend(made.network, bend);
     const std::vector<quat> frames = test::framesOf(made.network, points);
@@ -175,7 +175,7 @@ TEST_CASE(
 
 TEST_CASE("without forks there are no patches either") {
   VASA_REQUIRE_GPU(rig);
-  const test::Forked made = test::forked();
+  const test::Forked& made = test::forked();
   TubeDetail detail{{8, 5}, 0};
   detail.forks = false;
   const TubeSet tubes(rig.device(), made.network, detail, 1024);
