@@ -34,7 +34,11 @@ TEST_CASE(
   FrameMaker maker(scene,
                    {.avoid = true, .track = std::make_shared<MotionTrack>(MotionTrack::Keeps::latest)});
   RenderOptions options;
-  options.width = 320, options.height = 240;
+  // What allocates depends neither on how many pixels nor on how many triangles there are.
+  options.width = 160, options.height = 120;
+  options.samples = 1;
+  options.pixelError = kAutoPixelError;
+  options.skeleton = &scene.body.skeleton;
   gpu::Device device;  // without the validation layer, which allocates
   const std::size_t own = test::ownAllocationCount();
   Renderer renderer(device, scene.network, scene.body.meshes, options);
