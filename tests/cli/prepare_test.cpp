@@ -3,24 +3,40 @@
 #include <fstream>
 
 #include "cli/program.h"
+#include "network/builder.h"
+#include "network/file.h"
 #include "support/shared_data.h"
 
 // What is kept between runs: pictures are the same with it and without, whatever became of its files.
 
+using namespace vasa;
 using namespace vasa::test;
 
 namespace {
 
 namespace fs = std::filesystem;
 
-// The built-in human in a folder of its own, without what ships of it: a body like any other.
+// The built-in human with its lungs' vessels alone, in a folder of its own, without what ships of it: a body
+// like any other.
 struct OwnBody {
   TemporaryFolder folder;
   fs::path cache = folder.path() / "cache", kept = cache / "vasa";
 
   OwnBody() {
-    for (const char* name : {"human.glb", "human.vasa", "human.holds.csv", "growth"})
+    for (const char* name : {"human.glb", "growth"})
       fs::create_symlink(humanBody().parent_path() / name, folder.path() / name);
+    std::ofstream(folder.path() / "human.holds.csv") << "vessel,at,held_by\n";
+    const auto all = readNetwork(humanVessels());
+    REQUIRE(all.ok());
+    NetworkBuilder builder;
+    for (const Vessel& vessel : all->vessels())
+      if (vessel.name.find("pulmonary") != std::string::npos)
+        builder.addVessel({vessel.name, vessel.ontologyId, vessel.kind},
+                          {all->pointsOf(vessel).begin(), all->pointsOf(vessel).end()});
+    const auto lungs = builder.build(all->bodyHeight());
+    REQUIRE(lungs.ok());
+    REQUIRE(lungs->vessels().size() > 20);
+    REQUIRE(writeNetwork(folder.path() / "human.vasa", *lungs).ok());
   }
   ProgramOptions with(const fs::path& where) const {
     return {.environment = {"VASA_DATA_DIR=" + folder.path().string(), "XDG_CACHE_HOME=" + where.string()}};

@@ -40,9 +40,17 @@ void writeHumanInTwoFiles(const std::filesystem::path& folder) {
 // Draws a picture, keeps it in a run that reads the same, then refuses to after the change.
 void checkHeld(const std::filesystem::path& folder, const std::vector<std::string>& scene,
                const std::function<void()>& change) {
-  std::vector<std::string> arguments{
-      "render",   "--size", "32x48",  "--quads", "4x2",
-      "--frames", "0",      "--json", "-o",      (folder / "picture.png").string()};
+  std::vector<std::string> arguments{"render",
+                                     "--size",
+                                     "32x48",
+                                     "--quads",
+                                     "4x2",
+                                     "--frames",
+                                     "0",
+                                     "--json",
+                                     "--no-avoid",
+                                     "-o",
+                                     (folder / "picture.png").string()};
   arguments.insert(arguments.end(), scene.begin(), scene.end());
   const auto first = runProgram(arguments);
   REQUIRE_MESSAGE(first.exit == 0, first.err);
