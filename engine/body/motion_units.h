@@ -30,8 +30,8 @@ MotionUnits motionUnits(const Motion& motion, std::span<const std::string_view> 
 /// The same motion in one unit.
 Motion inOneUnit(Motion motion, const MotionUnits& units);
 
-/// "the places of its root are in another unit than its OFFSETs, and are taken 100 times as large, ...";
-/// empty where both are in one.
+/// "its root moves in another unit than its OFFSETs: the way is taken 100 times as long, ..."; empty where
+/// both are in one.
 std::string describeUnits(const MotionUnits& units);
 
 }  // namespace vasa
