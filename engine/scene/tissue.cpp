@@ -178,7 +178,9 @@ Tissue tissueOf(const Body& body, float cell, std::span<const vec3> near, float 
         tissue.at[i] = inside[i] >= 2 ? std::int32_t(tissue.places.size()) : -1;
         if (tissue.at[i] < 0) continue;
         tissue.places.emplace_back(x, y, z);
-        tissue.kinds.push_back(solid[i] >= 2 ? Tissue::Kind::solid : Tissue::Kind::flesh);
+        // What keeps vessels out of an organ (the heart) is no bone in its wall.
+        tissue.kinds.push_back(solid[i] >= 2 && rooms[i] == Tissue::kCommon ? Tissue::Kind::solid
+                                                                            : Tissue::Kind::flesh);
         tissue.rooms.push_back(rooms[i]);
       }
   }

@@ -272,7 +272,7 @@ edited 4 branch
 press 315 464 # another place
 press 184 244 # the tool for grafts
 press 400 540 # past a place beside all vessels
-press 331 568 # to the popliteal artery
+press 338 570 # to the popliteal artery
 edited 5 graft
 tail -n 1 "$journal" | grep -q ' via ' || fail 'the graft does not pass where it was led'
 end

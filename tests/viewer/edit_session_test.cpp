@@ -164,7 +164,7 @@ TEST_CASE(
 
   // Past a place beside all vessels, which lies as deep as the place that it begins at.
   const TemporaryFolder third;
-  const std::string graft = click("185 244") + click("380 500") + click("331 568");
+  const std::string graft = click("185 244") + click("380 500") + click("338 570");
   session(sceneIn(third.path(), "left femoral artery"), pick + graft + control("s"));
   edits = readJournal(third.path() / "scene.vedit");
   REQUIRE(edits);
@@ -189,7 +189,7 @@ TEST_CASE(
   // Undo takes such a place back, and nothing else.
   const TemporaryFolder fourth;
   session(sceneIn(fourth.path(), "left femoral artery"), pick + slide + click("185 244") + click("380 500") +
-                                                             control("z") + click("331 568") + control("s"));
+                                                             control("z") + click("338 570") + control("s"));
   edits = readJournal(fourth.path() / "scene.vedit");
   REQUIRE(edits);
   REQUIRE(edits->size() == 2);
