@@ -287,7 +287,7 @@ void addConvert(CLI::App& app, Command& command) {
       "source, but what overlaps at rest is not held apart in motion, and check says so.");
   sub->add_option(
          "MESH", options->meshes,
-         "Surfaces: .glb, .gltf, .obj, .stl, .vtp, .vtk; or centre lines with radii: .swc, .vtp, .vtk, .mrk.json")
+         "Surfaces: .glb, .gltf, .obj, .stl, .vtp, .vtu, .vtk; or centre lines with radii: .swc, .vtp, .vtu, .vtk, .mrk.json")
       ->required();
   sub->add_option("-o,--output", options->output, "The network to write (.vasa)")->required();
   sub->add_option("--kind", options->kind, "Kind of every vessel: artery, vein, portal, lymphatic or other")

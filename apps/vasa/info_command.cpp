@@ -280,7 +280,7 @@ Result<Report> reportOf(const std::filesystem::path& file, bool vessels, bool jo
   return Error{
       Fault::usage,
       file.string() +
-          ": unknown kind of file; info reads .vasa, .glb, .gltf, .vrm, .obj, .stl, .vtp, .vtk, .swc, "
+          ": unknown kind of file; info reads .vasa, .glb, .gltf, .vrm, .obj, .stl, .vtp, .vtu, .vtk, .swc, "
           ".mrk.json, .bvh and scene .json files" +
           remedyFor(file, FileUse::vessels)};
 }

@@ -7,7 +7,7 @@
 namespace vasa::cli {
 
 Result<void> checkNetworkOutput(const std::filesystem::path& file) {
-  constexpr std::array kOthers{".glb", ".gltf", ".vrm", ".obj", ".stl", ".vtp",  ".vtk",
+  constexpr std::array kOthers{".glb", ".gltf", ".vrm", ".obj", ".stl", ".vtp",  ".vtu",  ".vtk",
                                ".swc", ".bvh",  ".csv", ".png", ".ply", ".json", ".vedit"};
   if (file == "-")
     return Error{Fault::usage, "-o -: a network is written to a file, not to standard output; name a .vasa"};

@@ -34,7 +34,7 @@ struct Options {
 const auto kStart = std::chrono::steady_clock::now();  // before main()
 
 constexpr const char* kOpenable =
-    "open a scene (.json), vessels (.vasa, .glb, .obj, .stl, .swc, .vtp, .vtk, .mrk.json), a body (.glb, .gltf, .vrm) or a motion (.bvh)";
+    "open a scene (.json), vessels (.vasa, .glb, .obj, .stl, .swc, .vtp, .vtu, .vtk, .mrk.json), a body (.glb, .gltf, .vrm) or a motion (.bvh)";
 
 // Vessels take the place of others: those were what edits were of, and what the scene's name stands for.
 SceneFile withVessels(SceneFile scene, const std::filesystem::path& path) {
@@ -141,7 +141,8 @@ Result<viewer::ViewOptions> prepare(const Globals& globals, const Options& optio
   view.validation = {.core = options.validate, .synchronization = options.validate};
   view.record = options.record;
   view.open = sceneOf;
-  view.openable = {".json", ".vasa", ".glb", ".gltf", ".vrm", ".obj", ".stl", ".swc", ".vtp", ".vtk", ".bvh"};
+  view.openable = {".json", ".vasa", ".glb", ".gltf", ".vrm", ".obj",
+                   ".stl",  ".swc",  ".vtp", ".vtu",  ".vtk", ".bvh"};
   view.stopped = [] { return stopRequested(); };
   view.start = kStart;
   return view;

@@ -21,6 +21,7 @@ struct Motion {
   std::vector<Joint> joints;
   float framesPerSecond = 30;
   std::uint32_t frameCount = 0;
+  bool turnsDoubted = false;       ///< its feet slide, and would stand in another order of its turns
   std::vector<quat> rotations;     ///< local, frame after frame, one a joint
   std::vector<vec3> translations;  ///< local, likewise; the offset where the joint does not move
 

@@ -31,25 +31,6 @@ float nearestRatio(float times) {
   return times;
 }
 
-// The foot on which a person stands, as their own legs are stretched: seen from the hips. Its side must stay
-// the same for a step.
-struct StandingFoot {
-  int side = -1;
-  vec3 fromHips{0};
-};
-StandingFoot standingFoot(const MotionPose& pose, const RestStance& stance) {
-  StandingFoot foot;
-  const vec3 up = stance.up(pose), hips = pose.places[stance.hips()];
-  float low = 0;
-  for (int side = 0; side < 2; ++side) {
-    const auto end = stance.legEnd(pose, kBothSides[side]);
-    if (!end) continue;
-    const float height = glm::dot(*end - hips, up);
-    if (height < low) low = height, foot = {side, *end - hips};
-  }
-  return foot;
-}
-
 // What the feet of a motion say of its places: how many times too short its hips' way is.
 float timesByFeet(const Motion& motion, const RestStance& stance) {
   const auto step = std::uint32_t(std::max(1L, std::lround(motion.framesPerSecond * kStepSeconds)));
@@ -58,7 +39,7 @@ float timesByFeet(const Motion& motion, const RestStance& stance) {
   for (const std::uint32_t frame : sampledFrames(motion, kStepsAsked)) {
     if (frame + step >= motion.frameCount) break;
     const MotionPose before = motionPose(motion, frame), after = motionPose(motion, frame + step);
-    const StandingFoot a = standingFoot(before, stance), b = standingFoot(after, stance);
+    const RestStance::StandingFoot a = stance.standingFoot(before), b = stance.standingFoot(after);
     if (a.side < 0 || a.side != b.side) continue;
     const vec3 back = a.fromHips - b.fromHips,
                hips = after.places[stance.hips()] - before.places[stance.hips()];

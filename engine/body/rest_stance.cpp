@@ -46,6 +46,19 @@ float RestStance::lowFoot(const MotionPose& pose, vec3 axis) const {
   return low;
 }
 
+RestStance::StandingFoot RestStance::standingFoot(const MotionPose& pose) const {
+  StandingFoot foot;
+  const vec3 way = up(pose), hips = pose.places[hips_];
+  float low = 0;
+  for (int side = 0; side < 2; ++side) {
+    const auto end = legEnd(pose, kBothSides[side]);
+    if (!end) continue;
+    const float height = glm::dot(*end - hips, way);
+    if (height < low) low = height, foot = {side, *end - hips};
+  }
+  return foot;
+}
+
 RestStance::Uprightness RestStance::uprightness(const MotionPose& pose, vec3 axis) const {
   Uprightness result;
   const auto along = [&](vec3 a, vec3 b) {

@@ -22,6 +22,13 @@ class RestStance {
   vec3 up(const MotionPose& pose) const;
   /// The lower of both feet along an axis, or of what is known of the legs.
   float lowFoot(const MotionPose& pose, vec3 axis) const;
+  /// The foot on which a person stands, as their own legs are stretched: seen from the hips. Its side must
+  /// stay the same for a step.
+  struct StandingFoot {
+    int side = -1;  ///< of kBothSides
+    vec3 fromHips{0};
+  };
+  StandingFoot standingFoot(const MotionPose& pose) const;
   /// Cosines of the trunk with an axis and of each bone of the legs with its opposite.
   struct Uprightness {
     float trunk = 0, worstLeg = 1, sum = 0;

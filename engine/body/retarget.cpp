@@ -22,6 +22,7 @@ constexpr float kFloorShare = 0.05f;  // of the frames may have a foot lower tha
 constexpr std::uint32_t kFramesCompared = 12;
 constexpr float kWordsSure = 0.95f, kShapeSure = 0.8f;  // a known convention: 1
 constexpr float kStiffSure = 0.8f;                      // where the trunk is not followed
+constexpr float kDoubtedTurnsSure = 0.7f;               // limbs point elsewhere, and nobody knows how far
 constexpr float kNoStandSure = 0.7f;                    // where the pose compared with rest may be any
 constexpr float kTurnedRoundSure = 0.4f;                // where joints stand the other way round
 constexpr float kGoodAngle = 10, kLostAngle = 60;  // [degrees] between limbs: as good as right, and wrong
@@ -255,6 +256,7 @@ class Retargeter {
     out.turnedRound = turnedRound();
     if (!out.turnedRound.empty()) out.sureness *= kTurnedRoundSure;
     if (!out.stands) out.sureness *= kNoStandSure;
+    if (given_.turnsDoubted) out.sureness *= kDoubtedTurnsSure;
     out.sureness *= 1 - std::clamp((out.meanAngle - kGoodAngle) / (kLostAngle - kGoodAngle), 0.0f, 1.0f);
   }
 

@@ -54,8 +54,10 @@ constexpr float kTrunkFollowed = 15;  ///< [degrees] trunkMissing beyond which t
 /// where only words and 0.8 where only the shape told them, times the square of the share of what must hold
 /// between them that does (shins behind thighs, both sides alike, legs away from the trunk), less where limbs
 /// end up more than 10 degrees from the motion's, times 0.8 where the trunk bends against the hips by less
-/// than half of what the motion's does, and by more than kTrunkFollowed less, and times 0.4 where joints are
-/// paired that stand the other way round (a map with hips and head exchanged).
+/// than half of what the motion's does, and by more than kTrunkFollowed less, times 0.7 where nobody stands
+/// in the pose that is compared with rest, or feet slide that would stand in another order of the motion's
+/// turns, and times 0.4 where joints are paired that stand the other way round (a map with hips and head
+/// exchanged).
 ///
 /// Fails with badInput that names both and what is missing: the map names a joint that does not exist, no
 /// hips, fewer than six joints that follow one; without a map, sureness below kLeastSureness. O(frames ·

@@ -10,6 +10,7 @@
 #include "core/letters.h"
 #include "core/log.h"
 #include "core/text_file.h"
+#include "io/bvh_turns.h"
 #include "io/read_limits.h"
 #include "io/words.h"
 
@@ -19,7 +20,6 @@ namespace {
 constexpr std::size_t kMaximumBvhBytes = std::size_t(1) << 29;
 constexpr std::size_t kMostJoints = 4096;
 constexpr int kDeepest = 256;
-constexpr double kRadians = 3.14159265358979323846 / 180;
 constexpr double kFarthest = 1e9;  // in any unit
 // No motion is recorded at less than a frame a second, and any is in milliseconds at more than 1 of them.
 constexpr double kLongestFrame = 1;                       // [s]
@@ -30,7 +30,7 @@ struct BrokenLine {
   std::string rule;
 };
 
-enum class Channel : std::uint8_t { x, y, z, turnX, turnY, turnZ };
+using Channel = BvhChannel;
 
 class Parser {
  public:
@@ -52,6 +52,10 @@ class Parser {
     keepOffsets();
     warnOfRadians();
     passOverRest();
+    if (!doubt_.empty()) {
+      motion_.turnsDoubted = true;
+      logWarning(motion_.name + ": " + doubt_);
+    }
     return std::move(motion_);
   }
 
@@ -102,12 +106,18 @@ class Parser {
     if (!sameLetters(rest_.substr(0, word.size()), word)) return expect(word);
     rest_.remove_prefix(word.size());
   }
+  // A comma or semicolon that stands between numbers or behind one, not within one.
+  static bool divides(std::string_view word) {
+    return word.ends_with(',') || word.find(';') != word.npos ||
+           (word.find(',') != word.npos && word.find('.') != word.npos);
+  }
   double number(const char* what) { return numberOf(next(), what); }
   double numberOf(std::string_view word, const char* what) const {
     double value = 0;
     if (!parseNumber(word, value) || std::abs(value) > kFarthest)
       breaks(std::string(what) + " must be a finite number, found " + quoted(word) +
              (word.empty()                  ? "; copy or export the file again"
+              : divides(word)               ? "; divide numbers by blanks alone"
               : word.find(',') != word.npos ? "; write decimal points, not commas"
                                             : ""));
     return value;
@@ -163,7 +173,8 @@ class Parser {
       const auto found =
           std::ranges::find_if(kNames, [&](std::string_view name) { return sameLetters(name, word); });
       if (found == std::end(kNames))
-        breaks("a channel must be a position or rotation such as Xrotation, found " + quoted(word));
+        breaks("a channel must be a position or rotation such as Xrotation, found " + quoted(word) +
+               "; export turns as three angles about the axes");
       const auto channel = Channel(found - std::begin(kNames));
       channels_[joint.value].push_back(channel);
       motion_.joints[joint.value].moves |= channel <= Channel::z;
@@ -175,13 +186,17 @@ class Parser {
     if (const std::string_view found = next(); !sameLetters(found, "MOTION"))
       breaks("expected MOTION, found " + quoted(found) +
              "; export the skeleton of one person with its motion");
-    expectMark("Frames:");
+    expectMark("Frames");
+    expectMark(":");
     motion_.frameCount = std::uint32_t(whole("the number of frames", 10'000'000));
     if (motion_.frameCount == 0) breaks("there are no frames; export the motion again");
     expect("Frame");
-    expectMark("Time:");
+    expectMark("Time");
+    expectMark(":");
     const double seconds = number("the frame time");
-    if (!(seconds > 1e-5)) breaks("the frame time must be above zero seconds, found " + numberText(seconds));
+    if (!(seconds > 1e-5))
+      breaks("the frame time must be above zero seconds, found " + numberText(seconds) +
+             "; write 1 divided by the frames a second, 0.0333333 for 30");
     if (seconds > kLongestFrame)
       breaks("the frame time of " + numberText(seconds) +
              " s is longer than a second; it is in seconds, not milliseconds: write " +
@@ -205,11 +220,14 @@ class Parser {
     motion_.rotations.reserve(total);
     motion_.translations.reserve(total);
     values_.resize(perFrame_);
+    BvhSteps steps(motion_);
     for (std::uint32_t frame = 0; frame < motion_.frameCount; ++frame) {
       readFrame(frame);
+      steps.take(frame, values_);
       const double* value = values_.data();
       for (std::size_t j = 0; j < motion_.joints.size(); ++j) value = poseJoint(j, value);
     }
+    doubt_ = steps.otherTurns(motion_, channels_);
   }
 
   // A frame is a row, or several where the first one is, and always ends with a row: what does not fit the
@@ -289,22 +307,12 @@ class Parser {
   }
 
   const double* poseJoint(std::size_t joint, const double* value) {
-    glm::dquat turn(1, 0, 0, 0);
-    vec3 place = motion_.joints[joint].offset;
-    for (const Channel channel : channels_[joint]) {
-      if (channel <= Channel::z)
-        place[int(channel)] = float(*value);
-      else {
-        dvec3 axis(0);
-        axis[int(channel) - 3] = 1;
-        turn = turn * glm::angleAxis(*value * kRadians, axis);
-        mostTurn_ = std::max(mostTurn_, std::abs(*value));
-      }
-      ++value;
-    }
-    motion_.rotations.push_back(quat(glm::normalize(turn)));
-    motion_.translations.push_back(place);
-    return value;
+    const auto& channels = channels_[joint];
+    const std::span values(value, channels.size());
+    for (std::size_t c = 0; c < channels.size(); ++c)
+      if (channels[c] > Channel::z) mostTurn_ = std::max(mostTurn_, std::abs(values[c]));
+    addBvhPose(channels, values, nullptr, motion_, joint);
+    return value + channels.size();
   }
 
   std::string_view rest_;
@@ -313,6 +321,7 @@ class Parser {
   std::size_t perFrame_ = 0;    // values
   std::vector<double> values_;  // of one frame
   bool wrapped_ = false;        // a frame takes several rows
+  std::string doubt_;           // of the order of turns
   std::vector<std::vector<Channel>> channels_;
   Motion motion_;
 };

@@ -9,6 +9,7 @@
 #include "body/coarser_levels.h"
 #include "body/copied_joints.h"
 #include "body/idle_joints.h"
+#include "body/props.h"
 #include "body/retarget.h"
 #include "body/rig.h"
 #include "body/skin_recognition.h"
@@ -402,6 +403,11 @@ Body bodyOf(const Asset& asset) {
   if (const auto left = leaveOutCoarserLevels(body); !left.empty())
     logInfo(asset.name + ": " + std::to_string(left.size()) + " coarser levels of detail are left out: '" +
             left.front() + "' first");
+  if (const auto props = leaveOutProps(body); !props.empty())
+    logInfo(asset.name +
+            ": what follows one joint and reaches farther from the skeleton than flesh does is left " +
+            "out (a prop, scenery): '" + props.front() + "'" +
+            (props.size() > 1 ? " and " + std::to_string(props.size() - 1) + " more" : ""));
   recogniseSkin(body);
   return body;
 }

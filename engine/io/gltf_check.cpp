@@ -60,8 +60,11 @@ void checkExtensions(const JsonView& root) {
   uniqueNames(root, "extensionsRequired");
   for (const JsonView& item : root.items("extensionsRequired")) {
     if (!isHarmless(item.text()))
-      item.fail("the file needs the extension " + item.text() + ", which is not supported",
-                "export without it (for compressed meshes: without compression)");
+      item.fail(
+          "the file needs the extension " + item.text() + ", which is not supported",
+          item.text() == "EXT_mesh_gpu_instancing"
+              ? "make the copies of its meshes real objects (Blender: Make Instances Real), and export again"
+              : "export without it (for compressed meshes: without compression)");
     if (!used.contains(item.text()))
       item.fail("\"" + item.text() + "\" must also be listed in extensionsUsed");
   }

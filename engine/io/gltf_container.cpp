@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/log.h"
+#include "core/text_file.h"
 #include "io/foreign_files.h"
 #include "io/gltf_rule.h"
 #include "io/read_limits.h"
@@ -137,6 +138,10 @@ bool isGlb(std::span<const std::byte> bytes, const std::filesystem::path& path) 
 }  // namespace
 
 Container openContainer(std::span<const std::byte> bytes, const std::filesystem::path& path) {
+  if (const std::string_view other = otherContent(asText(bytes)); !other.empty()) {
+    const std::size_t end = other.find("; ");
+    breaks("byte 0", std::string(other.substr(0, end)), std::string(other.substr(end + 2)));
+  }
   const Container container =
       isGlb(bytes, path) ? splitGlb(bytes, path) : Container{asText(bytes), std::nullopt, false};
   if (container.json.size() > kMaximumJsonBytes)

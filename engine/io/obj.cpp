@@ -7,6 +7,7 @@
 #include "core/atomic_file.h"
 #include "core/cancellation.h"
 #include "core/ids.h"
+#include "core/log.h"
 #include "core/text_file.h"
 #include "io/colour_runs.h"
 #include "io/words.h"
@@ -60,6 +61,8 @@ class ObjReader {
         if (objects_.size() > mostObjects)
           return fail(line_, "more than the " + std::to_string(mostObjects) +
                                  " objects and groups accepted for a file of this size; split it");
+      } else if (keyword == "l") {
+        ++linesLeft_;
       } else if (keyword == "usemtl") {
         material_ = restOf(line);
         isMaterialNew_ = true;
@@ -76,6 +79,11 @@ class ObjReader {
     for (std::size_t i = 0; i < faces_.size(); ++i)
       for (const std::uint32_t corner : cornersOf(i))
         if (corner >= positions_.size()) return fail(faces_[i].line, outside(std::int64_t(corner) + 1));
+    if (linesLeft_ > 0)
+      logWarning(
+          file_ + ": " + std::to_string(linesLeft_) +
+          " lines (l) beside its faces are left out, as they have no radii; centre lines are read from "
+          ".swc, .vtp and .vtk");
     return elements();
   }
 
@@ -124,13 +132,14 @@ class ObjReader {
   // Red, green and blue behind the place, as MeshLab and Blender write them; they count where all vertices
   // have them. Two kinds of vessel in one object are told by nothing else.
   void colour(std::string_view rest) {
-    vec3 linear;
+    vec3 told;
     for (int k = 0; k < 3; ++k) {
       double value = 0;
-      if (!parseNumber(nextWord(rest), value) || value < 0 || value > 1) return;
-      linear[k] = std::pow(float(value), 2.2f);
+      if (!parseNumber(nextWord(rest), value) || value < 0 || value > 255) return;
+      told[k] = float(value);
+      if (value > 1) brightest_ = 255;  // bytes, as some scripts write them
     }
-    if (colours_.size() + 1 == positions_.size()) colours_.push_back(linear);
+    if (colours_.size() + 1 == positions_.size()) colours_.push_back(told);
   }
 
   static std::string_view restOf(std::string_view line) {
@@ -224,7 +233,8 @@ class ObjReader {
   // To an element whose vertices are those of used_.
   void addColours(MeshElement& element) {
     std::vector<vec3> colours;
-    for (const std::uint32_t vertex : used_) colours.push_back(colours_[vertex]);
+    for (const std::uint32_t vertex : used_)
+      colours.push_back(glm::pow(colours_[vertex] / brightest_, vec3(2.2f)));  // linear
     std::vector<MeshMaterial> named = std::move(element.materials);
     if (named.empty() || named.front().firstTriangle > 0) named.insert(named.begin(), MeshMaterial{});
     element.materials.clear();
@@ -258,9 +268,10 @@ class ObjReader {
   const std::filesystem::path& path_;
   std::string file_;
   ImportFrame frame_;
-  std::size_t line_ = 0;
+  std::size_t line_ = 0, linesLeft_ = 0;
   std::vector<vec3> positions_;
-  std::vector<vec3> colours_;  // linear, of as many of the first vertices as have one
+  std::vector<vec3> colours_;  // as told, of as many of the first vertices as have one
+  float brightest_ = 1;        // what a full colour is
   std::vector<std::uint32_t> corners_;
   std::vector<Face> faces_;
   std::vector<Object> objects_;

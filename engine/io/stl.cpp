@@ -188,7 +188,9 @@ class AsciiReader {
         return fail("a facet needs three corners, found '" + std::string(word.substr(0, 40)) + "'");
       dvec3 p;
       for (int axis = 0; axis < 3; ++axis)
-        if (!number(p[axis])) return fail("a corner needs three finite numbers");
+        if (const std::string_view word = words_.next(); !number(word, p[axis]))
+          return fail("a corner needs three finite numbers, found '" + std::string(word.substr(0, 40)) + "'" +
+                      (word.find(',') != word.npos ? "; write decimal points, not commas" : ""));
       if (const std::string fault = coordinateFault(p, frame_); !fault.empty()) return fail(fault);
       welder.add(frame_.toHouse(p));
     }
@@ -196,8 +198,7 @@ class AsciiReader {
       return fail("a facet with more than three corners");
     return {};
   }
-  bool number(double& value) {
-    std::string_view word = words_.next();
+  static bool number(std::string_view word, double& value) {
     if (word.starts_with('+')) word.remove_prefix(1);
     const auto [stop, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
     return fault == std::errc{} && stop == word.data() + word.size();
@@ -235,7 +236,8 @@ Result<std::vector<MeshElement>> parseStl(std::span<const std::byte> bytes, cons
   const bool fitsBinary =
       bytes.size() >= kHeaderBytes &&
       bytes.size() == kHeaderBytes + kFacetBytes * std::uint64_t(littleEndian(bytes.data() + 80));
-  if (!fitsBinary && isUtf16(text)) return badInput(file + ": " + kNotUtf8);
+  if (const std::string_view other = otherContent(text); !fitsBinary && !other.empty())
+    return badInput(file + ": " + std::string(other));
   const bool ascii = !fitsBinary && beginsAsText(text);
   if (!ascii && bytes.size() < kHeaderBytes)
     return badInput(file + ": neither ASCII nor binary STL: " + std::to_string(bytes.size()) +

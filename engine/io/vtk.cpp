@@ -140,6 +140,16 @@ std::string_view textOf(std::span<const std::byte> bytes) {
 // Some editors put a mark before it.
 bool isLegacy(std::string_view text) { return text.substr(0, 17).find("# vtk DataFile") != text.npos; }
 
+bool isGrid(std::string_view text) {
+  const std::string_view head = text.substr(0, 4096);
+  return head.find("<VTKFile") != head.npos && head.find("UnstructuredGrid") != head.npos;
+}
+
+// Of all but XML's polygonal data.
+Sections sectionsIn(std::span<const std::byte> bytes, std::string_view plain) {
+  return isGrid(plain) ? vtk::gridSections(bytes) : sectionsOf(plain);
+}
+
 // Edges that some program drew on a surface. What cannot be read is not without: reading says why.
 bool withoutRadii(std::span<const std::byte> bytes, bool legacy, std::string_view text) {
   if (!legacy) return !vtpTellsRadii(bytes);
@@ -178,6 +188,17 @@ VtkContent vtkContent(const std::filesystem::path& path) {
     if (!plain) return VtkContent::nothing;
     text = *plain;
   }
+  if (isGrid(text) || (legacy && lowerCase(text.substr(0, 1024)).find("unstructured_grid") != text.npos)) {
+    try {
+      const Sections file = sectionsIn(*bytes, text);
+      const bool lines = file.cells.contains("LINES"),
+                 faces = file.cells.contains("POLYGONS") || file.cells.contains("TRIANGLE_STRIPS");
+      if (lines && !(faces && !tellsRadii(file))) return VtkContent::lines;
+      return faces ? VtkContent::surface : VtkContent::nothing;
+    } catch (const BrokenRule&) {
+      return VtkContent::nothing;
+    }
+  }
   std::string_view body = text;
   for (int line = 0; legacy && line < 2; ++line)  // the second is a title, in any words
     body.remove_prefix(std::min(body.find('\n', 1), body.size()));
@@ -207,7 +228,7 @@ Result<VtpLines> parseVtkLines(std::span<const std::byte> bytes, const std::stri
   if (!plain) return plain.error();
   try {
     std::string remark;
-    VtpLines lines = linesOf(sectionsOf(*plain), frame, remark);
+    VtpLines lines = linesOf(sectionsIn(bytes, *plain), frame, remark);
     if (!remark.empty()) logWarning(name + ": " + remark);
     return lines;
   } catch (const BrokenRule& broken) {
@@ -225,12 +246,12 @@ Result<std::vector<MeshElement>> parseVtkSurface(std::span<const std::byte> byte
                                                  const std::filesystem::path& path,
                                                  const ImportFrame& frame) {
   TriangleMesh mesh;
-  if (isLegacy(textOf(bytes))) {
+  if (isLegacy(textOf(bytes)) || isGrid(textOf(bytes))) {
     std::string kept;
     const auto plain = plainText(textOf(bytes), path.string(), kept);
     if (!plain) return plain.error();
     try {
-      mesh = surfaceOf(sectionsOf(*plain), frame);
+      mesh = surfaceOf(sectionsIn(bytes, *plain), frame);
     } catch (const BrokenRule& broken) {
       return badInput(path.string() + ": " + broken.place + ": " + broken.rule);
     }

@@ -5,7 +5,8 @@
 #include "io/vtp.h"
 #include "mesh/mesh_element.h"
 
-// VTK's polygonal data: XML (.vtp) and legacy (.vtk, ASCII and binary).
+// VTK's polygonal data, and unstructured grids that are lines or faces: XML (.vtp, .vtu) and legacy (.vtk,
+// ASCII and binary).
 namespace vasa {
 
 enum class VtkContent { nothing, lines, surface };
@@ -15,16 +16,16 @@ enum class VtkContent { nothing, lines, surface };
 /// reading them says why.
 VtkContent vtkContent(const std::filesystem::path& path);
 
-/// The lines of a legacy file, as readVtp gives them.
-/// Fails with badInput, naming file and place: no legacy VTK, another data set than POLYDATA (with what to
-/// do), data cut short, an index out of range, numbers that are not finite, no lines, no radius. Memory is in
-/// proportion to the file.
+/// The lines of a legacy file, or a grid of either kind, as readVtp gives them.
+/// Fails with badInput, naming file and place: no legacy VTK, another data set (with what to do), cells
+/// that are neither lines nor faces, data cut short, an index out of range, numbers that are not finite, no
+/// lines, no radius. Memory is in proportion to the file.
 Result<VtpLines> readVtkLines(const std::filesystem::path& path, const ImportFrame& frame = {});
 Result<VtpLines> parseVtkLines(std::span<const std::byte> bytes, const std::string& name,
                                const ImportFrame& frame = {});
 
-/// The polygons and strips of a .vtp or a legacy .vtk file, cut into triangles. Fails as above, and without
-/// any.
+/// The polygons and strips of a .vtp, a .vtu or a legacy .vtk file, cut into triangles. Fails as above, and
+/// without any.
 Result<std::vector<MeshElement>> readVtkSurface(const std::filesystem::path& path,
                                                 const ImportFrame& frame = {});
 Result<std::vector<MeshElement>> parseVtkSurface(std::span<const std::byte> bytes,

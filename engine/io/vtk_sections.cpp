@@ -4,6 +4,7 @@
 #include <cctype>
 #include <charconv>
 #include <optional>
+#include <utility>
 
 #include "core/cancellation.h"
 #include "core/letters.h"
@@ -53,12 +54,15 @@ class SectionReader {
     if (kind != "ASCII" && kind != "BINARY") breaks("line 3", "must be ASCII or BINARY");
     binary_ = kind == "BINARY";
     if (upper(word()) != "DATASET") breaks("line 4", "must be DATASET POLYDATA");
-    if (const std::string set = upper(word()); set != "POLYDATA")
+    const std::string set = upper(word());
+    isGrid_ = set == "UNSTRUCTURED_GRID";
+    if (set != "POLYDATA" && !isGrid_)
       breaks(
           "line 4",
           "holds " + set +
               ", not POLYDATA; extract its surface or lines (ParaView: Extract Surface) and save them as .vtp");
     for (std::string_view next = word(); !next.empty(); next = word()) section(upper(next));
+    if (isGrid_) divideCells(out_, std::exchange(grid_, {}), types_);
     return std::move(out_);
   }
 
@@ -122,6 +126,11 @@ class SectionReader {
     if (name == "POINTS") return readPoints();
     if (name == "LINES" || name == "POLYGONS" || name == "TRIANGLE_STRIPS" || name == "VERTICES")
       return readCells(name);
+    if (name == "CELLS" && isGrid_) return readCells(name);
+    if (name == "CELL_TYPES" && isGrid_) {
+      types_ = numbers(count(name), vtp::Scalar::int32, name);
+      return;
+    }
     if (name == "POINT_DATA" || name == "CELL_DATA") {
       data_ = name == "POINT_DATA" ? &out_.pointData : &out_.cellData;
       rows_ = count(name);
@@ -150,7 +159,7 @@ class SectionReader {
   void readCells(const std::string& name) {
     const std::size_t amount = count(name), size = count(name);
     const std::string_view before = rest_;
-    Cells& cells = out_.cells[name];
+    Cells& cells = name == "CELLS" ? grid_ : out_.cells[name];
     if (upper(word()) == "OFFSETS") {
       const std::vector<double> offsets = numbers(amount, type(name), name);
       if (upper(word()) != "CONNECTIVITY") breaks(name, "needs CONNECTIVITY after OFFSETS");
@@ -232,7 +241,7 @@ class SectionReader {
   }
   // Some programs write what belongs to points or cells as data of the whole: its length tells whose it is.
   std::vector<Array>* ofField(std::size_t rows) {
-    std::size_t cells = 0;
+    std::size_t cells = grid_.size();
     for (const auto& [name, own] : out_.cells) cells += own.size();
     return rows == out_.points.size() ? &out_.pointData : rows == cells ? &out_.cellData : nullptr;
   }
@@ -264,10 +273,12 @@ class SectionReader {
   }
 
   std::string_view rest_;
-  bool binary_ = false;
+  bool binary_ = false, isGrid_ = false;
   std::vector<Array>* data_ = nullptr;
   std::map<const std::vector<Array>*, std::map<std::string, std::size_t>> places_;  // of arrays by name
   std::size_t rows_ = 0;
+  Cells grid_;                 // of an unstructured grid
+  std::vector<double> types_;  // of its cells
   Checkpoints checkpoints_;
   Sections out_;
 };

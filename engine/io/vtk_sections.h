@@ -26,7 +26,7 @@ struct Array {
   std::vector<double> values;
 };
 
-/// What a legacy VTK file holds, section by section.
+/// What a legacy VTK file holds, section by section, or a grid of either kind.
 struct Sections {
   std::vector<dvec3> points;
   std::map<std::string, Cells> cells;  ///< "LINES", "POLYGONS", "TRIANGLE_STRIPS"
@@ -34,7 +34,15 @@ struct Sections {
   std::vector<Array> pointData, cellData;
 };
 
-/// Throws BrokenRule. @param text  plain (io/text_file.h)
+/// Throws BrokenRule. Cells of an unstructured grid come as polygonal data has them.
+/// @param text  plain (io/text_file.h)
 Sections sectionsOf(std::string_view text);
+
+/// The same of an XML file of an unstructured grid (.vtu).
+Sections gridSections(std::span<const std::byte> bytes);
+
+/// Adds a grid's cells to the lists of polygonal data, with what the file tells of cells in the order of
+/// these. Throws BrokenRule where one is neither line nor face. @param types  VTK's, one a cell
+void divideCells(Sections& file, const Cells& cells, std::span<const double> types);
 
 }  // namespace vasa::vtk

@@ -65,7 +65,7 @@ std::int64_t countOf(const XMLElement& piece, const char* name, const std::strin
 
 XmlFile::XmlFile(std::span<const std::byte> bytes) : mostContent_(partOfMemory(bytes.size(), 6, 16)) {
   std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (isUtf16(text)) breaks("/", kNotUtf8);
+  if (const std::string_view other = otherContent(text); !other.empty()) breaks("/", std::string(other));
   std::string xml(takeAppended(text));
   if (const std::size_t memory = xmlMemory(xml), most = partOfMemory(bytes.size(), 10, 24); memory > most)
     breaks("/", "the XML " + beyondMemory(memory, most) + "; split or reduce it");
@@ -74,14 +74,14 @@ XmlFile::XmlFile(std::span<const std::byte> bytes) : mostContent_(partOfMemory(b
            std::string("is not valid XML: ") + document_.ErrorName());
 }
 
-const XMLElement& XmlFile::polyData() {
+const XMLElement& XmlFile::data(const char* kind) {
   const XMLElement* root = document_.RootElement();
   if (!root || std::strcmp(root->Name(), "VTKFile") != 0) breaks("/", "is no VTK XML file");
   readEncoding(*root);
-  const XMLElement* data = root->FirstChildElement("PolyData");
+  const XMLElement* data = root->FirstChildElement(kind);
   if (!data)
-    breaks("/VTKFile", "holds " + std::string(attribute(*root, "type")) +
-                           ", not PolyData; extract its surface or lines and save them as .vtp");
+    breaks("/VTKFile", "holds " + std::string(attribute(*root, "type")) + ", not " + kind +
+                           "; extract its surface or lines and save them as .vtp");
   return *data;
 }
 

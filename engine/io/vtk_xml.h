@@ -53,7 +53,8 @@ class XmlFile {
   explicit XmlFile(std::span<const std::byte> bytes);
 
   /// Its one element of this kind; breaks a rule where it holds something else.
-  const tinyxml2::XMLElement& polyData();
+  const tinyxml2::XMLElement& data(const char* kind);
+  const tinyxml2::XMLElement& polyData() { return data("PolyData"); }
   /// An array's numbers, of any type.
   Numbers numbers(const tinyxml2::XMLElement& array, const std::string& place);
   /// The bytes of VTK's arrays of text.

@@ -29,7 +29,8 @@ namespace {
 constexpr float kTallestPerson = 2.2f;  // [m]
 
 bool isVtk(const std::filesystem::path& path) {
-  return extensionOf(path) == ".vtp" || extensionOf(path) == ".vtk";
+  const std::string extension = extensionOf(path);
+  return extension == ".vtp" || extension == ".vtu" || extension == ".vtk";
 }
 
 Result<std::vector<MeshElement>> readElements(const std::filesystem::path& path, const ImportFrame& frame) {
@@ -46,7 +47,7 @@ Result<std::vector<MeshElement>> readElements(const std::filesystem::path& path,
   return Error{
       Fault::usage,
       path.string() +
-          ": unknown kind of file; convert reads .glb, .gltf, .obj, .stl, .vtp, .vtk, .swc and .mrk.json" +
+          ": unknown kind of file; convert reads .glb, .gltf, .obj, .stl, .vtp, .vtu, .vtk, .swc and .mrk.json" +
           remedyFor(path, FileUse::vessels)};
 }
 
@@ -236,7 +237,7 @@ Result<Centrelines> readCentrelines(const std::filesystem::path& path, const Ves
     return traces;
   }
   const ImportFrame frame = frameOf(path, import.frame);
-  const auto lines = extensionOf(path) == ".vtk" ? readVtkLines(path, frame) : readVtp(path, frame);
+  const auto lines = extensionOf(path) == ".vtp" ? readVtp(path, frame) : readVtkLines(path, frame);
   if (!lines) return lines.error();
   auto centrelines = centrelinesOfVtp(*lines, name, kind);
   if (!centrelines) return badInput(path.string() + ": " + centrelines.error().message);

@@ -462,7 +462,7 @@ TEST_CASE("nothing that is read is written over, and no option is passed over wi
 TEST_CASE("files of a kind that is not read say what to do") {
   const TemporaryFolder folder;
   for (const auto& [name, remedy] :
-       {std::pair("a.ply", "export it as .glb or .obj"), std::pair("a.vtu", "Extract Surface"),
+       {std::pair("a.ply", "export it as .glb or .obj"), std::pair("a.vti", "Extract Surface"),
         std::pair("a.nii", "3D Slicer"), std::pair("a.nii.gz", "3D Slicer"), std::pair("a.fcsv", "3D Slicer"),
         std::pair("a.gii", "as .stl"), std::pair("a.asc", "to .swc first"),
         std::pair("a.ctgr", "SimVascular"), std::pair("a.traces", "as .swc"),

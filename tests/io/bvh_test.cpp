@@ -63,6 +63,13 @@ TEST_CASE("frame times that are rounded mean whole rates, those of film and NTSC
     CHECK_MESSAGE(rateOf(seconds) == doctest::Approx(rate).epsilon(1e-6), seconds);
 }
 
+TEST_CASE("keywords with blanks before their colons") {
+  const auto read =
+      parseBvh(kHierarchy + "MOTION\nFrames : 1\nFrame Time : 0.1\n1 2 3 4 5 6 7 8 9\n", "a.bvh");
+  if (!read.ok()) FAIL(read.error().message);
+  CHECK(read->frameCount == 1);
+}
+
 TEST_CASE("keywords and channels in any case") {
   std::string text = kHierarchy + "MOTION\nFrames: 1\nFrame Time: .1\n1 2 3 0 0 0 0 0 0\n";
   for (char& c : text) c = char(std::toupper(static_cast<unsigned char>(c)));
@@ -160,6 +167,12 @@ TEST_CASE("what is wrong with a BVH file is told with its line") {
   expectBvhFault(kHierarchy + "MOTION\nFrames: 0\n", "there are no frames");
   expectBvhFault(kHierarchy + "MOTION\nFrames: 1\nFrame Time: 0\n", "must be above zero");
   expectBvhFault(kHierarchy + "MOTION\nFrames: 9999999\nFrame Time: 0.1\n", "fewer values");
+  const std::string row = kHierarchy + motion;
+  expectBvhFault(row + "1.5,2.5,3,4,5,6,7,8,9          \n",
+                 "found '1.5,2.5,3,4,5,6,7,8,9'; divide numbers by");
+  expectBvhFault(row + "1.5, 2.5, 3, 4, 5, 6, 7, 8, 9\n", "found '1.5,'; divide numbers by blanks");
+  expectBvhFault(row + "1;2;3;4;5;6;7;8;9              \n", "divide numbers by blanks");
+  expectBvhFault(row + "1,5 2 3 4 5 6 7 8 9            \n", "found '1,5'; write decimal points");
   expectBvhFault(kHierarchy + motion + "1 2 3 4 5 6 7 8 x         \n", "found 'x'");
   expectBvhFault(kHierarchy + motion + "1 2 3 4 5 6 7 8           \n", "this row holds 8 values");
   std::string deep = "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\n";

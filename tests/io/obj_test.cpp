@@ -178,6 +178,12 @@ TEST_CASE("colours of vertices tell what an object is drawn with, where all have
   REQUIRE(each.size() == 2);
   CHECK(each[1].name == "b");
   CHECK(each[1].colour == vec3(0, 0, 1));
+  const auto bytes = coloursOf(("v 0 0 0 255 0 0\nv 1 0 0 255 0 0\nv 0 1 0 255 0 0\nv 0 0 1 0 0 255\n"
+                                "v 1 0 1 0 0 255\nv 0 1 1 0 0 255\n" +
+                                faces)
+                                   .c_str());
+  REQUIRE(bytes.size() == 2);
+  CHECK(bytes[0].colour == vec3(1, 0, 0));
   CHECK(coloursOf((red + "v 0 0 1\nv 1 0 1 0 0 1\nv 0 1 1 0 0 1\n" + faces).c_str()).empty());
   CHECK(coloursOf((red + "v 0 0 1 1.0\nv 1 0 1 1.0\nv 0 1 1 1.0\n" + faces).c_str()).empty());
 }

@@ -141,6 +141,8 @@ TEST_CASE("faults of an STL are named with file and place") {
   CHECK(contains(file.fault("solid a\nfacet normal 0 0 1\nendfacet\n"), "a facet without 'outer loop'"));
   CHECK(contains(file.fault("solid a\n" + facet("0 0 0", "1 0 0", "0 1 x")),
                  ":6: a corner needs three finite numbers"));
+  CHECK(contains(file.fault("solid a\n" + facet("0 0 0", "1 0 0", "0 1,5 0")),
+                 "found '1,5'; write decimal points, not commas"));
   CHECK(contains(file.fault("solid a\n" + facet("0 0 0", "1 0 0", "0 nan 0")),
                  ":6: a coordinate is not finite"));
   CHECK(contains(file.fault("solid a\n" + facet("0 0 0", "1 0 0", "0 1 0\n vertex 1 1 1")),

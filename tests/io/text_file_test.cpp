@@ -4,6 +4,7 @@
 
 #include "core/atomic_file.h"
 #include "io/csv.h"
+#include "io/stl.h"
 #include "support/shared_data.h"
 
 using namespace vasa;
@@ -48,4 +49,21 @@ TEST_CASE("tables with carriage returns, and in UTF-16") {
   CHECK(table->state().error().message == "a.csv:3: 'z' is not a number");
   REQUIRE(writeFileAtomically(path, std::string("\xFF\xFEn\0", 4)).ok());
   CHECK(csv::Table::read(path).error().message.starts_with("a.csv: the text is UTF-16"));
+}
+
+TEST_CASE("what stands in a file's place is named, with what to do") {
+  std::string kept;
+  for (const auto& [bytes, told] :
+       {std::pair("\x1f\x8b\x08", "it is packed by gzip; unpack it first"),
+        std::pair("version https://git-lfs.github.com/spec/v1\noid", "it is a pointer of Git LFS; fetch"),
+        std::pair("\n <!DOCTYPE html>\n<html>", "it is a web page, saved in place of the file; download")}) {
+    const auto read = plainText(bytes, "a.swc", kept);
+    REQUIRE(!read.ok());
+    CHECK_MESSAGE(read.error().message.starts_with("a.swc: " + std::string(told)), read.error().message);
+    const auto text = std::string_view(bytes);
+    const auto stl = parseStl(std::as_bytes(std::span(text)), "a.stl", {});
+    REQUIRE(!stl.ok());
+    CHECK_MESSAGE(stl.error().message.starts_with("a.stl: " + std::string(told)), stl.error().message);
+  }
+  CHECK(otherContent("solid <html>").empty());
 }

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "io/gltf_builder.h"
 #include "io/reading.h"
@@ -179,8 +180,8 @@ TEST_CASE("centre lines of legacy VTK, with radii as fields or scalars") {
 }
 
 TEST_CASE("what is wrong with a legacy file is told with its place") {
-  expectVtkFault("# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\n",
-                 "line 4: holds UNSTRUCTURED_GRID, not POLYDATA; extract its surface");
+  expectVtkFault("# vtk DataFile Version 3.0\nx\nASCII\nDATASET STRUCTURED_GRID\n",
+                 "line 4: holds STRUCTURED_GRID, not POLYDATA; extract its surface");
   expectVtkFault(head("BINARY") + "POINTS 6 float\nabc", "POINTS: is cut short");
   expectVtkFault(head("ASCII") + kVtkPoints + "POLYGONS 1 5\n4 0 1 2 9\n",
                  "POLYGONS: cell 0 has a point outside the 6");
@@ -189,4 +190,72 @@ TEST_CASE("what is wrong with a legacy file is told with its place") {
   expectVtkFault(head("ASCII") + kVtkPoints + "POLYGONS 2 5\n4 0 1 2 3\n", "POLYGONS: is cut short");
   expectVtkFault(head("ASCII") + kVtkPoints, "neither lines nor polygons");
   expectVtkFault(head("ASCII") + kVtkPoints + "CURVES 3\n", "CURVES: is no section");
+}
+
+namespace {
+
+// Of one kind of cells after the other, as grids have them, in XML or legacy.
+std::string grid(bool xml, const std::string& corners, const std::string& types, const std::string& radii) {
+  std::istringstream words(corners);
+  std::string connectivity, offsets, legacy;
+  std::size_t all = 0, cells = 0, numbers = 0;
+  for (std::string cell; std::getline(words, cell, ',');) {
+    std::istringstream in(cell);
+    std::size_t size = 0;
+    for (std::string corner; in >> corner; ++size) connectivity += corner + " ";
+    offsets += std::to_string(all += size) + " ";
+    legacy += std::to_string(size) + " " + cell + "\n";
+    ++cells, numbers += size + 1;
+  }
+  const std::string places = "0 0 0 1 0 0 1 1 0 0 1 0 2 0 0 2 1 0";
+  if (!xml)
+    return "# vtk DataFile Version 4.2\na title\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 6 float\n" +
+           places + "\nCELLS " + std::to_string(cells) + " " + std::to_string(numbers) + "\n" + legacy +
+           "CELL_TYPES " + std::to_string(cells) + "\n" + types + "\nCELL_DATA " + std::to_string(cells) +
+           "\nSCALARS Radius float 1\nLOOKUP_TABLE default\n" + radii + "\n";
+  const auto array = [](const std::string& type, const std::string& name, const std::string& values) {
+    return "<DataArray type=\"" + type + "\" Name=\"" + name + "\" format=\"ascii\">" + values +
+           "</DataArray>";
+  };
+  return "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"6\" NumberOfCells=\"" +
+         std::to_string(cells) + "\"><CellData>" + array("Float32", "Radius", radii) + "</CellData><Points>" +
+         "<DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">" + places +
+         "</DataArray></Points><Cells>" + array("Int32", "connectivity", connectivity) +
+         array("Int32", "offsets", offsets) + array("UInt8", "types", types) +
+         "</Cells></Piece></UnstructuredGrid></VTKFile>";
+}
+
+}  // namespace
+
+TEST_CASE("grids of lines are centre lines, with what the file tells of each cell, whatever its kind") {
+  const TemporaryFolder folder;
+  for (const bool xml : {false, true}) {
+    // A triangle before the lines and a vertex behind them: polygonal data counts them the other way round.
+    const std::string text = grid(xml, "0 1 2,0 3,1 4 5,2", "5 3 4 1", "9 1 2 8");
+    const auto read = parseVtkLines(bytesOf(text), "a.vtu");
+    if (!read.ok()) FAIL(read.error().message);
+    REQUIRE(read->lines.size() == 2);
+    CHECK(read->lines[0] == std::vector<std::uint32_t>{0, 3});
+    CHECK(read->lines[1] == std::vector<std::uint32_t>{1, 4, 5});
+    CHECK(read->points[3] == vec4(0, 1, 0, 1));
+    CHECK(read->points[5] == vec4(2, 1, 0, 2));
+    CHECK(vtkContent(writeBytes(folder.path() / "a.vtu", text)) == VtkContent::lines);
+  }
+}
+
+TEST_CASE("grids of faces are surfaces; pixels go round, solids are refused with what to do") {
+  const TemporaryFolder folder;
+  for (const bool xml : {false, true}) {
+    for (const char* cells : {"0 1 2 3,1 4 2 5", "0 1 3 2,1 4 2 5"}) {
+      const std::string text = grid(xml, cells, cells[4] == '2' ? "9 6" : "8 6", "1 1");
+      expectSurface(text);
+      CHECK(vtkContent(writeBytes(folder.path() / "a.vtu", text)) == VtkContent::surface);
+    }
+    expectVtkFault(
+        grid(xml, "0 1 2,0 1 2 5", "5 10", "1 1"),
+        "cell 1: is a solid, or of another kind that is neither line nor face (type 10); extract its "
+        "surface or lines (ParaView: Extract Surface)");
+    if (xml) expectVtkFault(grid(xml, "0 1 2", "5 5", "1"), "there are 1, and types of 2");
+    expectVtkFault(grid(xml, "0 1 9", "5", "1"), "outside the 6");
+  }
 }
