@@ -151,6 +151,13 @@ Result<Conversion> convertElements(std::span<const SourceElement> given, const C
   if (options.mend) {
     auto mended = options.mend(assembly->network);
     if (!mended) return mended.error();
+    const auto before = assembly->network.points(), after = mended->points();
+    for (std::size_t e = 0; before.size() == after.size() && e < outcomes.size(); ++e)
+      for (const std::uint32_t v : assembly->vesselsOf[e]) {
+        const Vessel& vessel = assembly->network.vessels()[v];
+        for (std::uint32_t p = vessel.firstPoint; p < vessel.firstPoint + vessel.pointCount; ++p)
+          outcomes[e].moved = std::max(outcomes[e].moved, glm::distance(vec3(before[p]), vec3(after[p])));
+      }
     assembly->network = std::move(*mended);
   }
   std::vector<std::vector<std::uint32_t>> standIns;

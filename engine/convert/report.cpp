@@ -11,6 +11,9 @@ namespace {
 
 std::string percent(double share) { return std::to_string(int(std::floor(100 * share))) + " %"; }
 
+// [m] As far off a wall as a mesh may be and count as covered by it.
+constexpr float kToldMove = SurfaceErrorOptions{}.coverLeast;
+
 void append(std::string& reason, const std::string& more) {
   if (more.empty()) return;
   if (!reason.empty()) reason += "; ";
@@ -117,6 +120,9 @@ ElementReport reportElement(const Assembly& assembly, const SourceElement& sourc
   report.error = statisticsOf(std::span(&error.forward, 1));
   report.backError = statisticsOf(std::span(&error.backward, 1));
   judge(report, roughRadius(source.element.mesh));
+  if (report.status == ElementStatus::partial && outcome.moved > kToldMove)
+    append(report.reason, "moved aside by up to " + std::to_string(1000 * outcome.moved).substr(0, 3) +
+                              " mm, as it ran through others (--no-part leaves it)");
   if (!source.element.mesh.empty())
     doubt(report, meanRadius(assembly, index, error.area), source.element.mesh);
   else

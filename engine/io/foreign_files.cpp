@@ -87,6 +87,34 @@ bool isGltfFile(const std::filesystem::path& path) {
   return extension == ".glb" || extension == ".gltf" || extension == ".vrm";
 }
 
+Error withTrueKind(Error error, const std::filesystem::path& path) {
+  if (error.fault != Fault::badInput) return error;
+  std::string head(4096, ' ');
+  std::ifstream file(path, std::ios::binary);
+  file.read(head.data(), std::streamsize(head.size()));
+  head = lowerCase(head);
+  struct Sign {
+    const char *begins, *holds, *kind;
+  };
+  // Some begin alike: of these the rest tells.
+  constexpr Sign kSigns[] = {{"gltf", "", ".glb"},           {"solid", "facet", ".stl"},
+                             {"ply", "format", ".ply"},      {"hierarchy", "root", ".bvh"},
+                             {"<", "<vtkfile", ".vtp"},      {"{", "\"asset\"", ".gltf"},
+                             {"# vtk datafile", "", ".vtk"}, {"", "\nv ", ".obj"}};
+  const std::size_t first = std::min(head.find_first_not_of(" \t\r\n"), head.size());
+  for (const auto& [begins, holds, kind] : kSigns) {
+    if (!std::string_view(head).substr(first).starts_with(begins) || head.find(holds) == head.npos) continue;
+    const auto family = [](const std::filesystem::path& name) {
+      const std::string extension = extensionOf(name);
+      return isGltfFile(name) ? std::string(".glb") : extension.starts_with(".vt") ? ".vtp" : extension;
+    };
+    if (family(path) != family("a" + std::string(kind)))
+      error.message += std::string("; by its content it is a ") + kind + " file";
+    break;
+  }
+  return error;
+}
+
 ToldFrame toldFrame(const std::filesystem::path& path) {
   std::error_code ignored;
   if (isGltfFile(path) || !std::filesystem::is_regular_file(path, ignored)) return {};

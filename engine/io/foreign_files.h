@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "core/result.h"
 #include "io/import_frame.h"
 
 // Files that others' programs write and that are not read here, or not for this.
@@ -25,5 +26,8 @@ enum class FileUse { vessels, body, motion };
 /// What to do with such a file, by its extension: the end of a message, as "; open it in Blender ...". Empty
 /// where nothing is known of it.
 std::string remedyFor(const std::filesystem::path& path, FileUse use);
+
+/// An error of reading a file, with what it is by its content where its name says another kind.
+Error withTrueKind(Error error, const std::filesystem::path& path);
 
 }  // namespace vasa

@@ -89,8 +89,9 @@ class SwcReader {
       words.push_back(lowerCase(word));
     return words;
   }
-  // Columns are read by their order: names that tell of another one are refused.
-  Result<void> checkHeading(std::string_view text, std::size_t line) const {
+  // Columns are read by their order: names that tell of another one are refused. Of a comment, which may be
+  // any words, diameters alone.
+  Result<void> checkHeading(std::string_view text, std::size_t line, bool comment) const {
     const std::vector<std::string> words = wordsOfHeading(text);
     std::vector<int> columns;
     for (const std::string& word : words) {
@@ -101,8 +102,8 @@ class SwcReader {
     }
     const auto known = std::ranges::count_if(columns, [](int column) { return column >= 0; });
     const auto place = [&](int column) { return std::ranges::find(columns, column) - columns.begin(); };
-    if (known < 3) return {};  // a title
-    for (int column = 0; column < 7; ++column)
+    if (known < (comment ? 5 : 3)) return {};  // a title
+    for (int column = 0; column < 7 && !comment; ++column)
       if (const auto at = place(column); at != column && at < std::ssize(columns))
         return fail(line, std::string("the ") + kColumns[column] + " is in column " + std::to_string(at + 1) +
                               "; order the columns: " + kLine);
@@ -112,13 +113,17 @@ class SwcReader {
   }
 
   Result<void> readLine(std::string_view text, std::size_t line) {
-    text = text.substr(0, text.find('#'));
+    if (const std::size_t mark = text.find('#'); mark != text.npos) {
+      if (rows_.empty())
+        if (auto checked = checkHeading(text.substr(mark + 1), line, true); !checked) return checked;
+      text = text.substr(0, mark);
+    }
     // Tables of spreadsheets divide columns by semicolons, or else by commas; other commas are decimal ones,
     // which are refused.
     const char mark = text.find(';') != text.npos ? ';' : ',';
     const bool table = std::ranges::count(text, mark) >= 6;
     if (text.find_first_not_of(" \t\r,;") == text.npos) return {};
-    if (rows_.empty() && isHeading(text)) return checkHeading(text, line);
+    if (rows_.empty() && isHeading(text)) return checkHeading(text, line, false);
     double value[7];
     for (int column = 0; column < 7; ++column) {
       const std::string_view word = table ? nextCell(text, mark) : nextWord(text);

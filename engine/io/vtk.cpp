@@ -140,6 +140,10 @@ std::string_view textOf(std::span<const std::byte> bytes) {
 // Some editors put a mark before it.
 bool isLegacy(std::string_view text) { return text.substr(0, 17).find("# vtk DataFile") != text.npos; }
 
+bool isXml(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first != text.npos && text[first] == '<';
+}
 bool isGrid(std::string_view text) {
   const std::string_view head = text.substr(0, 4096);
   return head.find("<VTKFile") != head.npos && head.find("UnstructuredGrid") != head.npos;
@@ -226,6 +230,7 @@ Result<VtpLines> parseVtkLines(std::span<const std::byte> bytes, const std::stri
   std::string kept;
   const auto plain = plainText(textOf(bytes), name, kept);
   if (!plain) return plain.error();
+  if (isXml(*plain) && !isGrid(*plain)) return parseVtp(bytes, name, frame);
   try {
     std::string remark;
     VtpLines lines = linesOf(sectionsIn(bytes, *plain), frame, remark);

@@ -16,8 +16,8 @@ enum class VtkContent { nothing, lines, surface };
 /// reading them says why.
 VtkContent vtkContent(const std::filesystem::path& path);
 
-/// The lines of a legacy file, or a grid of either kind, as readVtp gives them.
-/// Fails with badInput, naming file and place: no legacy VTK, another data set (with what to do), cells
+/// The lines of a file of any of these, as readVtp gives them, told apart by what it holds and not by its
+/// name. Fails with badInput, naming file and place: no legacy VTK, another data set (with what to do), cells
 /// that are neither lines nor faces, data cut short, an index out of range, numbers that are not finite, no
 /// lines, no radius. Memory is in proportion to the file.
 Result<VtpLines> readVtkLines(const std::filesystem::path& path, const ImportFrame& frame = {});

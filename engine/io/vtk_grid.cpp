@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <string>
 
 #include "io/vtk_sections.h"
@@ -50,8 +51,9 @@ CellKind kindOf(double type, std::size_t cell) {
   }
 }
 
-// Numbers of the arrays of one component.
-void addData(XmlFile& file, const XMLElement& piece, const char* kind, std::vector<Array>& data) {
+// Numbers of the arrays of one component. @param numbers  of all of them so far
+void addData(XmlFile& file, const XMLElement& piece, const char* kind, const Amounts& most,
+             std::size_t& numbers, std::vector<Array>& data) {
   const XMLElement* parent = piece.FirstChildElement(kind);
   for (const XMLElement* e = parent ? parent->FirstChildElement("DataArray") : nullptr; e;
        e = e->NextSiblingElement("DataArray")) {
@@ -60,6 +62,7 @@ void addData(XmlFile& file, const XMLElement& piece, const char* kind, std::vect
         name.empty() || (!components.empty() && components != "1"))
       continue;
     const Numbers told = file.numbers(*e, std::string(kPlace) + "/" + kind + "/" + name);
+    Amounts::check(std::string(kPlace) + "/" + kind, "numbers", numbers += told.size(), most.cellNumbers);
     Array array{name, {}};
     for (std::size_t i = 0; i < told.size(); ++i) array.values.push_back(told[i]);
     data.push_back(std::move(array));
@@ -113,12 +116,18 @@ Sections gridSections(std::span<const std::byte> bytes) {
   const XMLElement* array = points ? points->FirstChildElement("DataArray") : nullptr;
   if (!array) breaks(std::string(kPlace) + "/Points", "is missing");
   const Numbers xyz = file.numbers(*array, std::string(kPlace) + "/Points");
+  const Amounts most(bytes.size());
+  Amounts::check(std::string(kPlace) + "/Points", "points", xyz.size() / 3, most.points);
   for (std::size_t i = 0; i + 2 < xyz.size(); i += 3) out.points.emplace_back(xyz[i], xyz[i + 1], xyz[i + 2]);
-  addData(file, *piece, "PointData", out.pointData);
-  addData(file, *piece, "CellData", out.cellData);
+  std::size_t numbers = 0;
+  addData(file, *piece, "PointData", most, numbers, out.pointData);
+  addData(file, *piece, "CellData", most, numbers, out.cellData);
   const Numbers corners = arrayOf(file, *piece, "Cells", "connectivity"),
                 ends = arrayOf(file, *piece, "Cells", "offsets"),
                 told = arrayOf(file, *piece, "Cells", "types");
+  Amounts::check(std::string(kPlace) + "/Cells/types", "cells", std::max(told.size(), ends.size()),
+                 most.lines);
+  Amounts::check(std::string(kPlace) + "/Cells/connectivity", "cells' points", corners.size(), most.corners);
   Cells cells;
   std::vector<double> types;
   for (std::size_t i = 0; i < told.size(); ++i) types.push_back(told[i]);

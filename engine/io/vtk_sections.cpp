@@ -48,7 +48,7 @@ class SectionReader {
 
   Sections run() {
     if (!line().starts_with("# vtk DataFile"))
-      breaks("line 1", "is no legacy VTK file: it must begin with \"# vtk DataFile Version\"");
+      breaks("line 1", "is neither XML nor a legacy VTK file, which begins with \"# vtk DataFile Version\"");
     line();
     const std::string kind = upper(word());
     if (kind != "ASCII" && kind != "BINARY") breaks("line 3", "must be ASCII or BINARY");

@@ -23,6 +23,24 @@ const tinyxml2::XMLElement* arrayNamed(const tinyxml2::XMLElement* parent, std::
 /// An attribute that says how many there are; 0 without it. Breaks a rule where it is no number up to 2^26.
 std::int64_t countOf(const tinyxml2::XMLElement& piece, const char* name, const std::string& place);
 
+/// What a file of so many bytes may hold. Points, lines and names take 16, 100 and 80 bytes of memory.
+struct Amounts {
+  explicit Amounts(std::size_t bytes)
+      : points(bytes / 4 + 500'000),
+        lines(bytes / 16 + 100'000),
+        corners(bytes / 2 + 1'000'000),
+        names(bytes / 16 + 100'000),
+        cellNumbers(bytes + 4'000'000) {}
+  std::size_t points, lines, corners, names, cellNumbers;
+
+  static void check(const std::string& place, const char* things, std::size_t found, std::size_t most) {
+    if (found > most)
+      breaks(place, std::string("all ") + things + " up to this are " + std::to_string(found) +
+                        ", more than the " + std::to_string(most) +
+                        " accepted for a file of this size; split or reduce it");
+  }
+};
+
 /// The numbers of an array: as its bytes, or as the text gave them.
 class Numbers {
  public:

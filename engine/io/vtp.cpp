@@ -18,6 +18,7 @@ namespace vasa {
 namespace {
 
 using tinyxml2::XMLElement;
+using vtk::Amounts;
 using vtk::arrayNamed;
 using vtk::attribute;
 using vtk::breaks;
@@ -25,24 +26,6 @@ using vtk::BrokenRule;
 using vtk::Numbers;
 
 constexpr std::size_t kMostCellArrays = 100;
-
-// What a file of so many bytes may hold. Points, lines and names take 16, 100 and 80 bytes of memory.
-struct Amounts {
-  explicit Amounts(std::size_t bytes)
-      : points(bytes / 4 + 500'000),
-        lines(bytes / 16 + 100'000),
-        corners(bytes / 2 + 1'000'000),
-        names(bytes / 16 + 100'000),
-        cellNumbers(bytes + 4'000'000) {}
-  std::size_t points, lines, corners, names, cellNumbers;
-
-  static void check(const std::string& place, const char* things, std::size_t found, std::size_t most) {
-    if (found > most)
-      breaks(place, std::string("all ") + things + " up to this are " + std::to_string(found) +
-                        ", more than the " + std::to_string(most) +
-                        " accepted for a file of this size; split or reduce it");
-  }
-};
 
 class VtpReader {
  public:

@@ -198,7 +198,7 @@ bool holdsCentrelines(const std::filesystem::path& path) {
 Result<std::vector<SourceElement>> readSurfaces(const std::filesystem::path& path,
                                                 const VesselImport& import) {
   auto elements = readElements(path, frameOf(path, import.frame));
-  if (!elements) return elements.error();
+  if (!elements) return withTrueKind(elements.error(), path);
   if (std::ranges::all_of(*elements, [](const MeshElement& e) { return e.mesh.empty(); }))
     return badInput(path.string() + ": the file holds no triangles; export the vessels as surfaces");
   std::vector<SourceElement> sources = describeElements(std::move(*elements), path.stem().string());
@@ -229,7 +229,7 @@ Result<Centrelines> readCentrelines(const std::filesystem::path& path, const Ves
   }
   if (extensionOf(path) == ".swc") {
     const auto samples = readSwc(path, import.frame);
-    if (!samples) return samples.error();
+    if (!samples) return withTrueKind(samples.error(), path);
     Centrelines traces = centrelinesOfSwc(*samples, name, kind);
     if (import.kind)
       for (Centrelines::Line& line : traces.lines) line.kind = kind;
@@ -237,7 +237,7 @@ Result<Centrelines> readCentrelines(const std::filesystem::path& path, const Ves
     return traces;
   }
   const ImportFrame frame = frameOf(path, import.frame);
-  const auto lines = extensionOf(path) == ".vtp" ? readVtp(path, frame) : readVtkLines(path, frame);
+  const auto lines = readVtkLines(path, frame);
   if (!lines) return lines.error();
   auto centrelines = centrelinesOfVtp(*lines, name, kind);
   if (!centrelines) return badInput(path.string() + ": " + centrelines.error().message);

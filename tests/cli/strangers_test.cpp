@@ -474,6 +474,31 @@ TEST_CASE("files of a kind that is not read say what to do") {
   }
 }
 
+TEST_CASE("files whose names tell another kind than they are of are named by what they hold") {
+  const TemporaryFolder folder;
+  const std::string facet =
+      "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+      "endsolid a\n";
+  const std::string mesh =
+      "o a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 3\nf 1 2 3\nf 1 2 3\nf 1 2 3\nf 3 2 1\n";
+  for (const auto& [name, text, kind] :
+       {std::tuple("a.obj", facet, ".stl"), std::tuple("b.stl", mesh + mesh, ".obj"),
+        std::tuple("c.swc", dollMotion({.family = "cmu"}, 2), ".bvh"),
+        std::tuple("d.obj", std::string("ply\nformat ascii 1.0\n"), ".ply")}) {
+    const auto outcome =
+        runProgram({"convert", write(folder, name, text), "-o", (folder.path() / "a.vasa").string()});
+    CHECK(outcome.exit == 3);
+    CHECK_MESSAGE(
+        outcome.err.find(std::string("; by its content it is a ") + kind + " file") != std::string::npos,
+        outcome.err);
+  }
+  const auto grid =
+      write(folder, "e.vtu", "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid/></VTKFile>");
+  const auto outcome = runProgram({"convert", grid, "-o", (folder.path() / "a.vasa").string()});
+  CHECK(outcome.exit == 3);
+  CHECK_MESSAGE(outcome.err.find("by its content") == std::string::npos, outcome.err);
+}
+
 TEST_CASE(
     "vessels follow a body with a small odd second primitive, and those that a rig leaves behind are told") {
   const TemporaryFolder folder;

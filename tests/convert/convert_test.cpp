@@ -6,6 +6,7 @@
 #include "core/cancellation.h"
 #include "core/parallel.h"
 #include "network/file.h"
+#include "network/reshape.h"
 
 using namespace vasa;
 using namespace vasa::test;
@@ -36,6 +37,23 @@ TEST_CASE("a closed ring is a network, standing or lying flat") {
     if (!conversion.ok()) FAIL(conversion.error().message);
     CHECK(conversion->network.componentCount() == 1);
     CHECK(conversion->report.summary.coverage > 0.98f);
+  }
+}
+
+TEST_CASE("what covers little since it was moved aside says so") {
+  const std::vector<SourceElement> elements{source("artery", tubeBetween({0, 0, 0}, {0, 0.2f, 0}, 0.004f))};
+  ConvertOptions options;
+  for (const float aside : {0.0f, 0.006f}) {
+    options.mend = [&](const Network& network) {
+      std::vector<vec4> points(network.points().begin(), network.points().end());
+      points.back().x += aside;
+      return reshapeNetwork(network, points, network.bodyHeight());
+    };
+    const auto conversion = convertElements(elements, options);
+    if (!conversion.ok()) FAIL(conversion.error().message);
+    const ElementReport& report = conversion->report.elements.front();
+    CHECK(report.status == (aside > 0 ? ElementStatus::partial : ElementStatus::ok));
+    CHECK((report.reason.find("moved aside by up to 6.0 mm") != std::string::npos) == (aside > 0));
   }
 }
 

@@ -437,6 +437,37 @@ TEST_CASE("legacy VTK of nasty shapes grows in proportion") {
       [](const std::string& file) { return messageOf(parseVtkSurface(bytesOf(file), "f")); });
 }
 
+TEST_CASE("grids of nasty shapes grow in proportion") {
+  const auto array = [](const char* name, const std::string& values) {
+    return "<DataArray type=\"UInt8\" Name=\"" + std::string(name) + "\" " + values + "</DataArray>";
+  };
+  const auto grid = [&](const std::string& inside) {
+    return R"(<VTKFile type="UnstructuredGrid" byte_order="LittleEndian" compressor="vtkZLibDataCompressor"><UnstructuredGrid><Piece><Points><DataArray type="Float32" format="ascii">0 0 0 1 0 0</DataArray></Points>)" +
+           inside + "</Piece></UnstructuredGrid></VTKFile>";
+  };
+  const auto zeros = [&](std::size_t n) { return "format=\"binary\">" + packedZeros(n); };
+  checkGrowth({{"packed cells", 16,
+                [&](std::size_t n) {
+                  return grid("<Cells>" + array("connectivity", "format=\"ascii\">0") +
+                              array("offsets", zeros(n)) + array("types", zeros(n)) + "</Cells>");
+                }},
+               {"packed corners", 16,
+                [&](std::size_t n) {
+                  return grid("<Cells>" + array("connectivity", zeros(n)) +
+                              array("offsets", "format=\"ascii\">1") + array("types", "format=\"ascii\">1") +
+                              "</Cells>");
+                }},
+               {"packed data", 16,
+                [&](std::size_t n) { return grid("<CellData>" + array("a", zeros(n)) + "</CellData>"); }},
+               {"cells", 50'000,
+                [&](std::size_t n) {
+                  return grid("<Cells>" + array("connectivity", "format=\"ascii\">0 1") +
+                              array("offsets", "format=\"ascii\">" + times(n, "2 ")) +
+                              array("types", "format=\"ascii\">" + times(n, "3 ")) + "</Cells>");
+                }}},
+              [](const std::string& file) { return messageOf(parseVtkSurface(bytesOf(file), "f")); });
+}
+
 TEST_CASE("VTP of nasty shapes grows in proportion") {
   const auto packed = [](std::size_t megabytes, const char* type) {
     return vtpWith(R"(<Piece NumberOfPoints="2" NumberOfLines="1"><Points><DataArray type=")" +

@@ -63,6 +63,9 @@ TEST_CASE(
   const char* order = "a.swc:1: the type is in column 7; order the columns: id type x y z radius parent";
   expectSwcFault("id,x,y,z,radius,parent,type\n1,0,0,0,2,-1,3\n", order);
   expectSwcFault("x y z radius\n0 0 0 2\n", "a.swc:1: the x is in column 1; order the columns");
+  expectSwcFault("# id type x y z diameter parent\n1 3 0 0 0 2 -1\n",
+                 "a.swc:1: gives diameters; write radii");
+  CHECK(parseSwc("# diameter x y z of a vessel\n# columns: n T x y z R P\n1 3 0 0 0 2 -1\n", "a.swc").ok());
   expectSwcFault("id type x y z diameter parent\n1 3 0 0 0 2 -1\n", "a.swc:1: gives diameters; write radii");
   expectSwcFault("1;3;0,5;0;0;2;-1\n", "the x must be a finite number");
   expectSwcFault("x1 3 0 0 0 2 -1\n", "a.swc:1: the id must be a finite number, found 'x1'");
