@@ -109,7 +109,7 @@ Error withTrueKind(Error error, const std::filesystem::path& path) {
       return isGltfFile(name) ? std::string(".glb") : extension.starts_with(".vt") ? ".vtp" : extension;
     };
     if (family(path) != family("a" + std::string(kind)))
-      error.message += std::string("; by its content it is a ") + kind + " file";
+      error.message += std::string("; by its content it is a ") + kind + " file: name it so";
     break;
   }
   return error;

@@ -268,11 +268,17 @@ void tellWhatIsOpen(const Asset& asset, const BodySkeleton& joints, const Body& 
         asset.name + ": it has " + std::to_string(people) +
         " skeletons of a person: motions move one of them, and vessels near the others do not follow it; "
         "export one person alone, with all that it wears on one skeleton");
-  if (sidesSwapped(rigOf(body.skeleton)))
-    logWarning(asset.name +
-               ": its feet point backwards for what its joints call left and right: sides seem swapped, and "
-               "motions, which go by names where no --joint-map says otherwise, turn it around; name them as "
-               "the person sees them");
+  if (sidesSwapped(rigOf(body.skeleton))) {
+    const bool mirrored = std::ranges::any_of(body.skeleton.joints, [](const Skeleton::Joint& joint) {
+      return glm::determinant(mat3(joint.restWorld)) < 0;
+    });
+    logWarning(asset.name + ": its feet point backwards for what its joints call left and right: " +
+               (mirrored
+                    ? "a negative scale mirrors it; export it without that scale (Blender: Apply Scale on "
+                      "armature and meshes)"
+                    : "sides seem swapped, and motions, which go by names where no --joint-map says "
+                      "otherwise, turn it around; name them as the person sees them"));
+  }
   if (isHalf(body))
     logWarning(asset.name +
                ": half a body: one side's arm and leg have no skin, and vessels there lie in the open; apply "

@@ -80,10 +80,9 @@ class ObjReader {
       for (const std::uint32_t corner : cornersOf(i))
         if (corner >= positions_.size()) return fail(faces_[i].line, outside(std::int64_t(corner) + 1));
     if (linesLeft_ > 0)
-      logWarning(
-          file_ + ": " + std::to_string(linesLeft_) +
-          " lines (l) beside its faces are left out, as they have no radii; centre lines are read from "
-          ".swc, .vtp and .vtk");
+      logWarning(file_ + ": lines (l, " + std::to_string(linesLeft_) +
+                 ") beside its faces are left out, as they have no radii; centre lines are read from "
+                 ".swc, .vtp and .vtk");
     return elements();
   }
 

@@ -196,6 +196,8 @@ std::string personGlb(const PersonFile& odd) {
   const int figure = file.add("nodes", {{"name", "figure"}, {"mesh", 0}, {"skin", 0}});
   file.add("skins", {{"joints", list}, {"inverseBindMatrices", file.floats(binds, "MAT4")}});
   nlohmann::json roots{0, figure};
+  if (odd.mirrored)
+    roots = {file.add("nodes", {{"name", "mirror"}, {"scale", {-1, 1, 1}}, {"children", {0, figure}}})};
   if (odd.stuck) roots[0] = file.add("nodes", {{"name", "armature"}, {"children", {0, still}}});
   file.add("scenes", {{"nodes", roots}});
   file.document["scene"] = 0;

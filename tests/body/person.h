@@ -29,6 +29,7 @@ struct PersonFile {
   bool jumps = false;     ///< the nodes are saved in the middle of a jump, arms raised
   float seconds = 2;      ///< that its clip takes
   bool vanishes = false;  ///< its clip scales the chest to nothing
+  bool mirrored = false;  ///< by a node of negative scale above all
   bool half = false;      ///< the skin's left half alone: a mirror that was not applied
 };
 

@@ -23,6 +23,19 @@ TEST_CASE("half a body, whose mirror was not applied, is warned of, and a whole 
   }
 }
 
+TEST_CASE("a body that a negative scale mirrors is told of, with what to do") {
+  const TemporaryFolder folder;
+  const auto path = (folder.path() / "body.glb").string();
+  for (const bool mirrored : {true, false}) {
+    REQUIRE(writeFileAtomically(path, personGlb({.mirrored = mirrored})).ok());
+    const auto told = runProgram({"info", path});
+    REQUIRE_MESSAGE(told.exit == 0, told.err);
+    CHECK_MESSAGE(
+        (told.err.find("a negative scale mirrors it; export it without") != told.err.npos) == mirrored,
+        told.err);
+  }
+}
+
 TEST_CASE("info tells which elements convert would leave out") {
   const TemporaryFolder folder;
   const auto path = (folder.path() / "scan.obj").string();

@@ -379,7 +379,7 @@ TEST_CASE("rigid pieces that hang on one another as a person's limbs are a body;
     // Each holds a mesh at its own place.
     for (std::size_t node = 0; node < pieces; ++node) {
       file.document["nodes"][node]["children"].push_back(file.document["nodes"].size());
-      file.add("nodes", {{"mesh", 0}});
+      file.add("nodes", {{"mesh", 0}, {"scale", {0.1, 0.1, 0.1}}});
     }
     file.document["scenes"][0]["nodes"] = {0};
     const auto path = writeBytes(folder.path() / "pieces.glb", file.glb());

@@ -147,7 +147,8 @@ TEST_CASE("what is wrong with a VTP file is told with its place") {
   const char* r = "MaximumInscribedSphereRadius";
   expectVtpFault("", "not valid XML");
   expectVtpFault("<VTKFile><PolyData></VTKFile>", "line 1: is not valid XML");
-  expectVtpFault("<html/>", "no VTK XML file");
+  expectVtpFault("<svg/>", "no VTK XML file");
+  expectVtpFault("<html/>", "it is a web page, saved in place of the file");
   expectVtpFault("<VTKFile type=\"ImageData\"/>", "holds ImageData, not PolyData");
   expectVtpFault("<VTKFile compressor=\"vtkLZ4DataCompressor\"/>", "save the file with zlib");
   expectVtpFault("<VTKFile><PolyData/></VTKFile>", "no lines");
