@@ -58,7 +58,7 @@ struct ConvertReport {
 struct ElementOutcome {
   std::string method, reason;
   std::vector<std::uint32_t> standIn;  ///< elements that tell what this one does not
-  float moved = 0;                     ///< [m] the farthest that its vessels were moved before it was measured
+  float moved = 0;  ///< [m] the farthest that its vessels were moved before it was measured
 };
 
 ConvertReport makeReport(const Assembly& assembly, std::span<const SourceElement> elements,
