@@ -79,7 +79,7 @@ FrameOptions frameOptions(const Options& options) {
                      .avoid = options.avoid || options.highlightContacts,
                      .beat = options.beat};
   frame.avoidance.skinWall = options.skinWall;
-  if (!options.avoid) frame.avoidance.rounds = frame.avoidance.lumenRounds = 0;
+  if (!options.avoid) frame.avoidance.rounds = 0;
   return frame;
 }
 

@@ -14,7 +14,7 @@ inline FrameOptions frameOptions(const Forces& forces, bool contacts) {
   FrameOptions options{.keep = forces.volume ? Keep::volume : Keep::radii,
                        .avoid = forces.avoid || contacts,
                        .beat = forces.beat};
-  if (!forces.avoid) options.avoidance.rounds = options.avoidance.lumenRounds = 0;  // only look
+  if (!forces.avoid) options.avoidance.rounds = 0;  // only look
   return options;
 }
 

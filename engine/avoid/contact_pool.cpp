@@ -20,7 +20,6 @@ constexpr float kCompliance = 1e-3f;      // α as a share of a·g
 constexpr float kOverRelaxation = 1.3f;   // ω: 1.2 to 1.6 settle more in as many sweeps than 1 does
 constexpr float kClearanceShare = 0.02f;  // of the sum of the radii
 constexpr float kLeastClearance = 1e-5f;  // [m]
-constexpr float kBoneClearance = 1e-4f;   // [m]
 constexpr float kSameParameter = 0.04f;   // constraints of one pair closer than this in s and t are one
 constexpr float kSameDirection = 0.98f;   // ... if their normals are about the same too
 constexpr float kSameWay = 0.7f;          // ... of a bone, whose planes turn
@@ -161,8 +160,7 @@ void ContactPool::propose(const BoneContact& place, std::span<const Bezier> shap
                 .s = place.s,
                 .normal = place.normal,
                 .point = place.point};
-  constraint.clearance = place.allowed + std::max(kClearanceShare * radius,
-                                                  place.allowed < 0 ? kLeastClearance : kBoneClearance);
+  constraint.clearance = place.allowed + std::max(kClearanceShare * radius, place.allowed < 0 ? kLeastClearance : kContactMargin);
   constraint.limit = kReach * (constraint.clearance - place.f + 2 * radius);
   giveRow(constraint, found.rows);
 }

@@ -11,6 +11,9 @@
 
 namespace vasa {
 
+/// [m] Tubes are watched from here on, not only once they overlap, and held as far from bones.
+constexpr float kContactMargin = 1e-4f;
+
 /// The last admissible shape, seen from the present pose: what decides on which side of one another vessels
 /// lie.
 struct LastShape {

@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -11,7 +12,7 @@ namespace vasa {
 class BendingMetric {
  public:
   /// @param count  points that may move, at least 0
-  /// @param beta   >= 0; a bow is about 3 β^¼ points long to either side
+  /// @param beta   >= 0
   BendingMetric(std::uint32_t count, bool startFixed, bool endFixed, float beta);
 
   std::uint32_t count() const { return std::uint32_t(pivot_.size()); }
@@ -26,6 +27,8 @@ class BendingMetric {
   Range solveNear(std::span<float> x, Range given, float negligible) const;
   /// zᵀ W z of any z, for a given bending weight: what carrying a shape along costs.
   static float energy(std::span<const float> z, float beta);
+  /// How many points long a bow is to either side, about.
+  static float bowOf(float beta) { return 3 * std::sqrt(std::sqrt(beta)); }
 
  private:
   std::vector<float> pivot_, lower1_, lower2_;  // 1/D, and L's two diagonals

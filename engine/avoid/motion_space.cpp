@@ -23,8 +23,7 @@ float carriedShare(std::uint32_t steps, std::uint32_t points, std::uint32_t carr
 
 }  // namespace
 
-MotionSpace::MotionSpace(const Network& network, float beta, std::span<const float> masses,
-                         std::uint32_t carried)
+MotionSpace::MotionSpace(const Network& network, float beta, std::span<const float> masses)
     : network_(&network),
       pointCount_(network.points().size()),
       vesselOf_(pointCount_),
@@ -34,6 +33,7 @@ MotionSpace::MotionSpace(const Network& network, float beta, std::span<const flo
       nodeMotion_(network.nodes().size()),
       nodeChanged_(network.nodes().size()),
       again_(network.vessels().size()) {
+  const auto carried = std::uint32_t(std::ceil(BendingMetric::bowOf(beta)));
   for (const Node& node : network.nodes()) {
     Hosting& hosting = hostings_.emplace_back();
     if (!node.host) continue;

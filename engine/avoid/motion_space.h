@@ -10,17 +10,16 @@ namespace vasa {
 
 /// How vessels may be pushed aside without coming apart. A point p of a vessel moves by
 ///   Δq_p = z_p + φ_start(p) Δ(start node) + φ_end(p) Δ(end node),
-/// where z is free but 0 at an end that hangs on a node, and φ falls smoothly from 1 at the node to 0 some
-/// points on. A node on a host's side moves as the host's centre line there; any other node has a variable of
+/// where z is free but 0 at an end that hangs on a node, and φ falls smoothly from 1 at the node to 0 as
+/// many points on as a bow takes. A node on a host's side moves as the host's centre line there; any other node has a variable of
 /// its own. Whatever z is, every end stays on its node, and what branches off goes along. The price of a
 /// motion, ½ zᵀ W z, falls apart into one banded matrix a vessel and one number a node. The network must
 /// outlive it; one object serves one caller.
 class MotionSpace {
  public:
-  /// @param masses   one a vessel: what moving its points costs, times; or none: 1 for all
-  /// @param carried  >= 1: over so many points φ falls to 0
-  explicit MotionSpace(const Network& network, float beta, std::span<const float> masses = {},
-                       std::uint32_t carried = 8);
+  /// @param beta    > 0 (avoid/metric.h)
+  /// @param masses  one a vessel: what moving its points costs, times; or none: 1 for all
+  explicit MotionSpace(const Network& network, float beta, std::span<const float> masses = {});
 
   /// One number a point, then one a node; those of fixed ends and hosted nodes stay 0.
   std::uint32_t variableCount() const { return std::uint32_t(pointCount_ + nodeWeight_.size()); }

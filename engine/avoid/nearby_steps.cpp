@@ -3,14 +3,7 @@
 namespace vasa {
 namespace {
 
-// What is near lies in the same cell or a neighbouring one.
-constexpr float kCell = 0.0625f;  // a power of two, so that dividing by it rounds nothing
 constexpr std::uint32_t kBuckets = 1 << 12;
-
-ivec3 cellOf(vec3 place) {
-  constexpr float kOutermost = 1 << 20;  // beyond it cells have no number of their own
-  return ivec3(glm::clamp(glm::floor(place / kCell), -kOutermost, kOutermost));
-}
 
 // Teschner et al. 2003. Cells that share a bucket only cost time.
 std::uint32_t bucketOf(ivec3 cell) {
@@ -19,6 +12,12 @@ std::uint32_t bucketOf(ivec3 cell) {
 }
 
 }  // namespace
+
+// What is near lies in the same cell or a neighbouring one.
+ivec3 NearbySteps::cellOf(vec3 place) const {
+  constexpr float kOutermost = 1 << 20;  // beyond it cells have no number of their own
+  return ivec3(glm::clamp(glm::floor(place / near_), -kOutermost, kOutermost));
+}
 
 void NearbySteps::fillBuckets() {
   // Counted one place too far on, so that each has come to its own first once all are put in.

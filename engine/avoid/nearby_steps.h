@@ -11,7 +11,7 @@ namespace vasa {
 /// jump. A grid of cells that share some buckets, for a few questions among many steps.
 class NearbySteps {
  public:
-  /// @param near  [m] <= 0.0625: places are near that differ by less along each axis
+  /// @param near  [m] > 0: places are near that differ by less along each axis
   explicit NearbySteps(float near) : near_(near) {}
 
   /// From anew. @param least  [m] shorter steps are not told  @param stepOf  index -> (where it ends, its
@@ -32,6 +32,7 @@ class NearbySteps {
     vec3 place;
     float length;
   };
+  ivec3 cellOf(vec3 place) const;
   void fillBuckets();
 
   float near_, least_ = 0;

@@ -11,7 +11,7 @@
 namespace vasa {
 namespace {
 
-constexpr float kSureTo = 4, kNothingFrom = 8;  // sums of radii at rest between which the side fades
+constexpr float kSureTo = 4;  // sums of radii at rest; over as many again the side fades
 // Sums of radii apart, below which the side at rest is the less sure.
 constexpr float kTooClose = 0.25f;
 constexpr float kCrossing = 0.7f;  // |u - v| from which two tubes cross (40 degrees)
@@ -21,8 +21,9 @@ constexpr float kInto = 0.01f;     // of a tube, where the search goes on in the
 constexpr float kNearer = 1e-6f;   // [m]
 constexpr std::size_t kGrain = 1024;
 
-float fadeOut(float x, float from, float to) {
-  const float t = std::clamp((x - from) / (to - from), 0.0f, 1.0f);
+// 1 up to 1, 0 from 2 on.
+float fadeOut(float x) {
+  const float t = std::clamp(x - 1, 0.0f, 1.0f);
   return 1 - t * t * (3 - 2 * t);
 }
 
@@ -57,13 +58,13 @@ vec3 RestSides::carried(const Place& at, std::span<const Bezier> shape,
   const vec4 a = interference_->restTubes()[at.i].at(at.s), b = interference_->restTubes()[at.j].at(at.t);
   const vec3 gap = vec3(a) - vec3(b);
   const float distance = glm::length(gap), radii = a.w + b.w;
-  if (!(radii > 0) || distance >= kNothingFrom * radii || distance < 1e-9f) return vec3(0);
+  if (!(radii > 0) || distance >= 2 * kSureTo * radii || distance < 1e-9f) return vec3(0);
   const vec3 turned =
       0.5f * (rotationAt(at.i, at.s, rotations) * gap + rotationAt(at.j, at.t, rotations) * gap);
   const vec3 side = sideways(turned, directionOf(shape[at.i], at.s), directionOf(shape[at.j], at.t));
   const float apart = glm::length(side), together = glm::length(turned) / distance;
   if (!(apart > 1e-9f)) return vec3(0);
-  return side / apart * together * fadeOut(distance / radii, kSureTo, kNothingFrom) *
+  return side / apart * together * fadeOut(distance / (kSureTo * radii)) *
          std::min(1.0f, apart / (kTooClose * radii));
 }
 

@@ -18,7 +18,6 @@ namespace {
 // [m] Less of a change is not made to a variable, so that what hangs on it has not moved and is not looked at
 // again. 10 µm, the least clearance, takes twice as many rounds; 1 and 5 take about as long as 3.
 constexpr float kStill = 3e-6f;
-constexpr float kMargin = 1e-4f;  // [m] contacts are held from here on, not only once they overlap
 // Of the radii: a step in which something comes deeper into another, and no more lies as it lay, is too long.
 constexpr float kDeepest = 0.5f;
 // Of the radius, counted as a millimetre at least (a bone has no lumen to give way, and its field is no
@@ -184,7 +183,7 @@ void Avoider::State::look(const Input& in, std::span<const vec4> points, Look ho
   in.report.certifyMs = 0;
   {
     StageClock clock(in.report.certifyMs);
-    const float wanted = how == Look::certain ? 0 : kMargin;
+    const float wanted = how == Look::certain ? 0 : kContactMargin;
     sameMargin = std::exchange(margin, wanted) == wanted;
     places = interference.find(points, margin);
     certificateOf(places, &remaining);
@@ -236,8 +235,8 @@ void Avoider::State::separate(const Input& in) {
 // Radii at interfering places and in bones are capped, and the rest of each vessel takes its volume; in the
 // end, where that only moves the trouble about, volume is given up for the certificate.
 void Avoider::State::giveWay(const Input& in, bool isLast) {
-  for (unsigned round = 0; round < options.lumenRounds; ++round) {
-    const bool lastResort = 2 * round >= options.lumenRounds;
+  for (unsigned round = 0; round < options.rounds; ++round) {
+    const bool lastResort = 2 * round >= options.rounds;
     if (!isInTrouble()) return;
     widestBefore.assign(correction.widest.begin(), correction.widest.end());
     {

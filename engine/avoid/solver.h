@@ -22,11 +22,10 @@ struct PosedVessels {
 
 /// Fixed budgets: no step takes more than these.
 struct AvoidOptions {
-  float bending = 30;        ///< β of the metric: how smooth a correction is along a vessel
-  unsigned rounds = 8;       ///< detections, each followed by sweeps
-  unsigned sweeps = 30;      ///< of dual ascent over all constraints, a round
-  unsigned lumenRounds = 8;  ///< of making vessels thinner where there is no room
-  bool skinWall = false;     ///< hold vessels below the skin, too
+  float bending = 30;     ///< β of the metric: how smooth a correction is along a vessel
+  unsigned rounds = 8;    ///< detections, each followed by sweeps; then as many, by giving way; 0: only look
+  unsigned sweeps = 30;   ///< of dual ascent over all constraints, a round
+  bool skinWall = false;  ///< hold vessels below the skin, too
 };
 
 /// Tubes in bones or the heart.

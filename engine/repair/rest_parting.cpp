@@ -12,11 +12,10 @@
 namespace vasa {
 namespace {
 
-// Β: a bow of less than two points to either side, so that little else is moved. More takes more of a surface
+// Β: a bow of less than two points to either side, so that little else is moved, and two points at a moved
+// node go along: each more takes a wide vessel's next 3 cm. More takes more of a surface
 // away from where it was scanned (0.3: 0.2 % of it), less leaves more pairs overlapping (0.03: 11 for 6).
 constexpr float kBending = 0.1f;
-// Points at a moved node that go along; each more takes a wide vessel's next 3 cm.
-constexpr std::uint32_t kCarried = 2;
 // A step; forces last, so that steps go on where the last one ended.
 constexpr unsigned kSweeps = 20;
 // Of the way to the solution: normals turn as tubes pass one another.
@@ -56,7 +55,7 @@ std::vector<float> relativeMasses(const Network& network) {
 RestParting::RestParting(const Network& network, float clearance)
     : network_(&network),
       clearance_(clearance),
-      space_(network, kBending, relativeMasses(network), kCarried),
+      space_(network, kBending, relativeMasses(network)),
       z_(space_.variableCount(), vec3(0)),
       shares_(network.points().size(), 1),
       points_(network.points().begin(), network.points().end()) {}

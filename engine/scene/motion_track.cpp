@@ -91,7 +91,7 @@ std::uint64_t trackKey(const Scene& scene, const Clip& clip, const FrameOptions&
   }
   hash = hashed(std::array{clip.start, clip.end, clip.framesPerSecond, options.avoidance.bending}, hash);
   return hashed(std::array{unsigned(options.keep), unsigned(options.slide), unsigned(options.beat),
-                           options.avoidance.rounds, options.avoidance.sweeps, options.avoidance.lumenRounds,
+                           options.avoidance.rounds, options.avoidance.sweeps,
                            unsigned(options.avoidance.skinWall)},
                 hash);
 }
