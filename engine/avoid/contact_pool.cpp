@@ -22,11 +22,10 @@ constexpr float kClearanceShare = 0.02f;  // of the sum of the radii
 constexpr float kLeastClearance = 1e-5f;  // [m]
 constexpr float kSameParameter = 0.04f;   // constraints of one pair closer than this in s and t are one
 constexpr float kSameDirection = 0.98f;   // ... if their normals are about the same too
-constexpr float kSameWay = 0.7f;          // ... of a bone, whose planes turn
 constexpr float kSure = 0.8f;             // of a side at rest, from which on it counts in full
 constexpr float kSameSide = 0.5f;         // cosine between a gap and what the last one has become
-constexpr float kNegligible = 2e-6f;      // [m] of violation, and of a step that moves a place
-constexpr float kLeastDiagonal = 1e-4f;   // below it nothing that may move can mend the place
+constexpr float kNegligible = Correction::kNegligible;
+constexpr float kLeastDiagonal = 1e-4f;  // below it nothing that may move can mend the place
 // How far a multiplier may push on its own: times what is lacking and the radii.
 constexpr float kReach = 10;
 
@@ -36,7 +35,7 @@ float widestOf(const Bezier& tube) { return std::max({tube.b[0].w, tube.b[1].w, 
 // or passed through one another since they were last apart; then towards the side on which they were.
 vec3 wayApart(vec3 gap, vec3 before, float distance, vec3 otherwise) {
   const float sure = std::min(glm::length(before) / (0.5f * distance), 1.0f);
-  const vec3 side = unitOr(before, vec3(0));
+  const vec3 side = directionOf(before);
   const float beyond = glm::dot(gap, side);
   const float turn = std::clamp(1 - 2 * beyond / distance, 0.0f, 1.0f);
   return unitOr(gap + sure * (turn * distance - std::min(beyond, 0.0f)) * side, unitOr(before, otherwise));
@@ -47,8 +46,11 @@ vec3 wayApart(vec3 gap, vec3 before, float distance, vec3 otherwise) {
 vec3 gapBefore(const Contact& at, std::span<const Bezier> shape, const LastShape& last) {
   const vec3 apart = vec3(last.tubes[at.i].at(at.s)) - vec3(last.tubes[at.j].at(at.t));
   return sideways(0.5f * (last.turns[at.i] * apart + last.turns[at.j] * apart),
-                  unitOr(vec3(shape[at.i].derivative(at.s)), vec3(0)),
-                  unitOr(vec3(shape[at.j].derivative(at.t)), vec3(0)));
+                  directionAt(shape[at.i], at.s), directionAt(shape[at.j], at.t));
+}
+
+bool samePlace(const Constraint& a, const Constraint& b) {
+  return std::max(std::abs(a.s - b.s), std::abs(a.t - b.t)) < kSameParameter;
 }
 
 auto keyOf(const Constraint& constraint) { return std::pair{constraint.i, constraint.other}; }
@@ -106,15 +108,12 @@ bool ContactPool::wouldRoll(const RestSides::Turned& turned, std::span<const Bez
                             Constraint& constraint) {
   const auto& [at, side, aheadOfEnd] = turned;
   const auto [i, j, s, t, f, contactNormal] = at;
-  if (!aheadOfEnd &&
-      crossOver(unitOr(vec3(shape[i].derivative(s)), vec3(0)), unitOr(vec3(shape[j].derivative(t)), vec3(0))))
-    return false;
+  if (!aheadOfEnd && crossOver(directionAt(shape[i], s), directionAt(shape[j], t))) return false;
   const float sure = glm::length(side);
   const vec4 a = shape[i].at(s), b = shape[j].at(t);
   const float apart = glm::distance(vec3(a), vec3(b)), radii = a.w + b.w;
-  const float share =
-      std::clamp((sure - RestSides::kSureAtRest) / (kSure - RestSides::kSureAtRest), 0.0f, 1.0f);
-  float least = 0.9f * RestSides::kChanged * (1 - share) * apart;
+  const float doubt = std::clamp((kSure - sure) / (kSure - RestSides::kLeastSure), 0.0f, 1.0f);
+  float least = 0.9f * RestSides::kChanged * doubt * apart;
   if (aheadOfEnd) least = std::min(least, -std::max(apart - radii, 0.0f));
   constraint = {.i = i, .other = j, .s = s, .t = t, .normal = side / sure};
   constraint.limit = kReach * apart;
@@ -142,11 +141,9 @@ void ContactPool::propose(const Contact& contact, std::span<const Bezier> shape,
     if (lack <= kNegligible) continue;
     constraint.limit = kReach * (lack + a.w + b.w);
     const auto own = std::span(found.constraints).first(found.count);
-    const auto isHere = [&](const Constraint& other) {
-      return std::abs(other.s - constraint.s) < kSameParameter &&
-             std::abs(other.t - constraint.t) < kSameParameter;
-    };
-    if (std::ranges::any_of(own, isHere) || known(constraint, kSameDirection)) continue;
+    if (std::ranges::any_of(own, [&](const Constraint& other) { return samePlace(other, constraint); }) ||
+        known(constraint, kSameDirection))
+      continue;
     giveRow(constraint, found.rows);
     found.constraints[found.count++] = constraint;
   }
@@ -160,7 +157,8 @@ void ContactPool::propose(const BoneContact& place, std::span<const Bezier> shap
                 .s = place.s,
                 .normal = place.normal,
                 .point = place.point};
-  constraint.clearance = place.allowed + std::max(kClearanceShare * radius, place.allowed < 0 ? kLeastClearance : kContactMargin);
+  constraint.clearance = place.allowed + std::max(kClearanceShare * radius,
+                                                  place.allowed < 0 ? kLeastClearance : kContactMargin);
   constraint.limit = kReach * (constraint.clearance - place.f + 2 * radius);
   giveRow(constraint, found.rows);
 }
@@ -170,9 +168,7 @@ Constraint* ContactPool::known(const Constraint& wanted, float cosine) {
   const auto sorted = std::span(constraints_).first(sorted_);
   auto own = std::ranges::lower_bound(sorted, keyOf(wanted), {}, keyOf);
   for (; own != sorted.end() && keyOf(*own) == keyOf(wanted); ++own)
-    if (std::abs(own->s - wanted.s) < kSameParameter && std::abs(own->t - wanted.t) < kSameParameter &&
-        glm::dot(own->normal, wanted.normal) > cosine)
-      return &*own;
+    if (samePlace(*own, wanted) && glm::dot(own->normal, wanted.normal) > cosine) return &*own;
   return nullptr;
 }
 
@@ -225,7 +221,7 @@ void ContactPool::add(std::span<const Interference::Place> places, std::span<con
   proposals_.resize(std::max(proposals_.size(), bones.size() + places.size()));
   const auto atBones = std::span(proposals_).first(bones.size()),
              atPlaces = std::span(proposals_).subspan(bones.size(), places.size());
-  parallelFor(bones.size() + places.size(), 16, [&](std::size_t k) {
+  parallelFor(bones.size() + places.size(), kGrain, [&](std::size_t k) {
     Proposals& found = proposals_[k];
     found.count = 0;
     found.rows.clear();
@@ -237,7 +233,7 @@ void ContactPool::add(std::span<const Interference::Place> places, std::span<con
   for (const Proposals& proposals : atBones) {
     const Constraint& constraint = proposals.constraints[0];
     // A bone's surface is not flat: the plane goes along with the place, and takes its push along.
-    if (Constraint* own = known(constraint, kSameWay)) {
+    if (Constraint* own = known(constraint, kSameWayOut)) {
       push<vec3>(*own, own->multiplier * (constraint.normal - own->normal), z);
       own->normal = constraint.normal;
       own->point = constraint.point;

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "avoid/correction.h"
 #include "avoid/interference.h"
 #include "avoid/motion_space.h"
 #include "avoid/side_places.h"
@@ -13,6 +14,8 @@ namespace vasa {
 
 /// [m] Tubes are watched from here on, not only once they overlap, and held as far from bones.
 constexpr float kContactMargin = 1e-4f;
+/// Cosine of the angle between two ways out of a bone that are about the same: 45 degrees.
+constexpr float kSameWayOut = 0.7f;
 
 /// The last admissible shape, seen from the present pose: what decides on which side of one another vessels
 /// lie.

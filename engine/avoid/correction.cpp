@@ -10,17 +10,15 @@
 namespace vasa {
 namespace {
 
-// [s] in which a correction falls to a third. What is held aside goes into what holds it by that share before
-// each step, and is pushed back; all by the same, so that what remains is the least correction (a bound on
-// the speed, as there was at first, lets vessels creep along what holds them). In 0.1 s, with at most 20
-// mm/s, the thinnest went by a radius: to which side they were to be pushed was a guess, so that a scanned
-// body's steps were made in halves, in up to three times the time. 0.3 to 2 s were measured: the longer the
-// faster, and the longer vessels lie aside for nothing.
+// [s] in which a correction falls to a third, and a lumen that gave way widens to the threefold where there
+// is room again (widening in 0.3, what two bones hold between them had widened by a tenth before each step,
+// and was dented a little more by each: 0.7 to 0.3 in a second). What is held aside goes into what holds it
+// by that share before each step, and is pushed back; all by the same, so that what remains is the least
+// correction (a bound on the speed, as there was at first, lets vessels creep along what holds them). In 0.1
+// s, with at most 20 mm/s, the thinnest went by a radius: to which side they were to be pushed was a guess,
+// so that a scanned body's steps were made in halves, in up to three times the time. 0.3 to 2 s were
+// measured: the longer the faster, and the longer vessels lie aside for nothing.
 constexpr float kFading = 1;
-constexpr float kLeastMotion = 1e-6f;  // [m] less is none
-// [s] in which a lumen that gave way doubles where there is room again. At 0.2 what two bones hold between
-// them had widened by a tenth before each step, and was dented a little more by each: 0.7 to 0.3 in a second.
-constexpr float kWidening = 0.7f;
 
 }  // namespace
 
@@ -34,11 +32,11 @@ CorrectionFlow::CorrectionFlow(const Network& network)
 void CorrectionFlow::fade(float seconds, Correction& correction) const {
   const float left = kFading / (kFading + seconds);
   for (vec3& motion : correction.motions)
-    motion = glm::length(left * motion) > kLeastMotion ? left * motion : vec3(0);
+    motion = glm::length(left * motion) > Correction::kNegligible ? left * motion : vec3(0);
   const std::span<const vec4> rest = network_->points();
   for (std::size_t p = 0; p < rest.size(); ++p) {
     float& widest = correction.widest[p];
-    widest *= std::exp2(seconds / kWidening);
+    widest *= std::exp(seconds / kFading);
     if (widest > VolumeKeeper::kHighestFactor * rest[p].w) widest = Correction::kNoLimit;
   }
 }

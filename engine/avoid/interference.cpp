@@ -1,11 +1,12 @@
 #include "avoid/interference.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace vasa {
 namespace {
 
-constexpr float kNearAtRest = 0.005f;  // [m]
+constexpr float kNear = 0.005f;  // [m]
 
 }  // namespace
 
@@ -20,13 +21,16 @@ Interference::Interference(const Network& network)
       restPairs_.push_back({{contact.i, contact.j}, std::min(contact.f, 0.0f)});
 }
 
+bool isNear(const Contact& at, std::span<const Bezier> tubes) {
+  return at.f < std::min(tubes[at.i].at(at.s).w + tubes[at.j].at(at.t).w, kNear);
+}
+
 std::vector<Contact> Interference::findNearAtRest() {
   std::vector<Contact> near;
-  detector_->update(rest_, kNearAtRest);
+  detector_->update(rest_, kNear);
   if (detector_->detect().empty()) return near;
-  for (const Contact& contact : detector_->contacts())
-    if (contact.f < rest_[contact.i].at(contact.s).w + rest_[contact.j].at(contact.t).w)
-      near.push_back(contact);
+  std::ranges::copy_if(detector_->contacts(), std::back_inserter(near),
+                       [&](const Contact& contact) { return isNear(contact, rest_); });
   return near;
 }
 

@@ -8,6 +8,9 @@
 
 namespace vasa {
 
+/// Whether two tubes are near one another at a place: no further apart than the sum of their radii, nor 5 mm.
+bool isNear(const Contact& at, std::span<const Bezier> tubes);
+
 /// Finds where a network's tubes run through one another, and knows which did so at rest already.
 ///
 /// Tubes near one another along the network (collide/neighbours.h) are left out: they belong together. Two
@@ -44,8 +47,8 @@ class Interference {
   /// Pairs that overlap at rest, and pairs that are left out as neighbours.
   std::size_t restPairCount() const { return restPairs_.size(); }
   std::size_t neighbourCount() const { return layout_.neighbours().pairCount(); }
-  /// Pairs that lay near one another at rest: no further apart than the sum of their radii, nor 5 mm. With
-  /// the places where they came nearest, sorted by pair. Ends what find() has returned.
+  /// Pairs that lay near one another at rest, with the places where they came nearest, sorted by pair. Ends
+  /// what find() has returned.
   std::vector<Contact> findNearAtRest();
 
  private:

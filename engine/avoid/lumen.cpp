@@ -16,18 +16,16 @@ struct Narrower {
     const float least = std::min(points[at].w, kLeastLumen * network.points()[at].w);
     most[at] = std::min(most[at], std::max(points[at].w * factor, least));
   }
-  // All ends that share a ring, so that it stays one.
-  void ring(NodeId id, float factor) const {
-    for (const VesselEnd& end : network.ends(network.node(id))) point(network.pointOf(end), factor);
-  }
-  void tube(NetworkTubes::Address at, float factor, bool ringsToo) const {
+  // A tube that has room for so much of its radius or of both radii.
+  void tube(NetworkTubes::Address at, float room, bool ringsToo) const {
+    const float factor = std::clamp(kSpare * room, 0.0f, 1.0f);
     const Vessel& vessel = network.vessel(at.vessel);
     for (std::uint32_t l = at.span; l < at.span + 4; ++l) {
       const NodeId node = l == 0 ? vessel.start : l + 1 == vessel.pointCount ? vessel.end : NodeId{};
       if (!node.valid())
         point(vessel.firstPoint + l, factor);
-      else if (ringsToo)
-        ring(node, factor);
+      else if (ringsToo)  // all ends that share a ring, so that it stays one
+        for (const VesselEnd& end : network.ends(network.node(node))) point(network.pointOf(end), factor);
     }
   }
 };
@@ -35,27 +33,18 @@ struct Narrower {
 }  // namespace
 
 void narrow(const Network& network, const NetworkTubes& layout, std::span<const Interference::Place> places,
-            std::span<const Bezier> shape, std::span<const vec4> points, bool ringsToo,
-            std::span<float> most) {
+            std::span<const BoneContact> bones, std::span<const Bezier> shape, std::span<const vec4> points,
+            bool ringsToo, std::span<float> most) {
   const Narrower narrower{network, points, most};
   for (const Interference::Place& place : places) {
     const Contact& contact = place.contact;
     const float radii = shape[contact.i].at(contact.s).w + shape[contact.j].at(contact.t).w;
-    const float room = radii + contact.f - place.allowed;
-    const float factor = std::clamp(kSpare * room / radii, 0.0f, 1.0f);
-    narrower.tube(layout.address(contact.i), factor, ringsToo);
-    narrower.tube(layout.address(contact.j), factor, ringsToo);
+    for (const std::uint32_t tube : {contact.i, contact.j})
+      narrower.tube(layout.address(tube), 1 - place.excess() / radii, ringsToo);
   }
-}
-
-void narrow(const Network& network, const NetworkTubes& layout, std::span<const BoneContact> places,
-            std::span<const Bezier> shape, std::span<const vec4> points, bool ringsToo,
-            std::span<float> most) {
-  const Narrower narrower{network, points, most};
-  for (const BoneContact& place : places) {
-    const float radius = shape[place.tube].at(place.s).w;
-    narrower.tube(layout.address(place.tube),
-                  std::max(kSpare * (radius + place.f - place.allowed) / radius, 0.0f), ringsToo);
+  for (const BoneContact& bone : bones) {
+    const float radius = shape[bone.tube].at(bone.s).w;
+    narrower.tube(layout.address(bone.tube), 1 - (bone.allowed - bone.f) / radius, ringsToo);
   }
 }
 

@@ -38,17 +38,6 @@ BendingMetric::BendingMetric(std::uint32_t count, bool startFixed, bool endFixed
   }
 }
 
-void BendingMetric::solve(std::span<float> x) const {
-  assert(x.size() == pivot_.size());
-  const std::size_t n = x.size();
-  for (std::size_t i = 1; i < n; ++i) x[i] -= lower1_[i] * x[i - 1] + (i >= 2 ? lower2_[i] * x[i - 2] : 0);
-  for (std::size_t i = 0; i < n; ++i) x[i] *= pivot_[i];
-  for (std::size_t i = n; i-- > 0;) {
-    if (i + 1 < n) x[i] -= lower1_[i + 1] * x[i + 1];
-    if (i + 2 < n) x[i] -= lower2_[i + 2] * x[i + 2];
-  }
-}
-
 BendingMetric::Range BendingMetric::solveNear(std::span<float> x, Range given, float negligible) const {
   assert(x.size() == pivot_.size() && given.first < given.last && given.last <= x.size());
   const std::uint32_t n = count();

@@ -16,14 +16,12 @@ class BendingMetric {
   BendingMetric(std::uint32_t count, bool startFixed, bool endFixed, float beta);
 
   std::uint32_t count() const { return std::uint32_t(pivot_.size()); }
-  /// Replaces the right-hand side by W⁻¹ times it. O(count).
-  void solve(std::span<float> x) const;
-
   struct Range {
     std::uint32_t first, last;  ///< half open
   };
-  /// The same where only x[given] is not 0: W⁻¹ falls off within some points, and what is below `negligible`
-  /// of the largest value is left 0. Returns where x is not 0. O(result).
+  /// Replaces a right-hand side of which only x[given] is not 0 by W⁻¹ times it. That falls off within some
+  /// points, and what is below `negligible` of the largest value is left 0. Returns where x is not 0.
+  /// O(result).
   Range solveNear(std::span<float> x, Range given, float negligible) const;
   /// zᵀ W z of any z, for a given bending weight: what carrying a shape along costs.
   static float energy(std::span<const float> z, float beta);

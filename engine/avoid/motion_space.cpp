@@ -12,8 +12,7 @@ namespace {
 
 // What a place owes to hosts of hosts is followed down to this, and responses to this of the largest.
 constexpr float kSmallest = 1e-3f;
-constexpr float kSamePace = 1.0001f;      // below what is allowed by that much: above rounding
-constexpr std::size_t kVesselGrain = 64;  // as many as are worth another thread
+constexpr float kSamePace = 1.0001f;  // below what is allowed by that much: above rounding
 
 float carriedShare(std::uint32_t steps, std::uint32_t points, std::uint32_t carried) {
   const float reach = float(std::min(carried, points - 1));
@@ -95,9 +94,8 @@ void MotionSpace::addPoint(const Vessel& vessel, std::uint32_t local, float weig
 }
 
 void MotionSpace::addNode(NodeId node, float weight, std::vector<Term>& terms) const {
-  if (const auto& host = network_->node(node).host) {
-    const SpanParameter at = locate(host->parameter, network_->vessel(host->vessel).spanCount());
-    addPlace(host->vessel, at.span, at.t, weight, terms);
+  if (const auto& [host, span, weights] = hostings_[node.value]; host) {
+    for (std::uint32_t l = 0; l < 4; ++l) addPoint(*host, span + l, weight * weights[int(l)], terms);
   } else if (std::abs(weight) >= kSmallest) {
     terms.push_back({std::uint32_t(pointCount_) + node.value, weight});
   }
@@ -166,7 +164,7 @@ void MotionSpace::moveNodes(std::span<const vec3> z) {
 
 void MotionSpace::apply(std::span<const vec3> z, std::span<vec4> points) {
   moveNodes(z);
-  parallelFor(network_->vessels().size(), kVesselGrain, [&](std::size_t v) {
+  parallelFor(network_->vessels().size(), kGrain, [&](std::size_t v) {
     const Vessel& vessel = network_->vessels()[v];
     for (std::uint32_t l = 0; l < vessel.pointCount; ++l)
       points[vessel.firstPoint + l] += vec4(motionOf(vessel, l, z), 0);
@@ -212,7 +210,7 @@ void MotionSpace::keepNear(std::span<const vec3> other, std::span<vec3> z, float
   // nearer. A vessel is looked at anew where it, or a node that it hangs on, has changed.
   do {
     moveNodes(difference_);
-    parallelFor(vessels.size(), kVesselGrain, [&](std::size_t v) {
+    parallelFor(vessels.size(), kGrain, [&](std::size_t v) {
       const Vessel& vessel = vessels[v];
       if (!std::exchange(again_[v], false) && !changed(vessel.start) && !changed(vessel.end)) return;
       if (reach(vessel) <= always) return;

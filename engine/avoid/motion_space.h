@@ -8,13 +8,16 @@
 
 namespace vasa {
 
+/// Vessels, pairs of tubes or places that are worth another thread.
+constexpr std::size_t kGrain = 64;
+
 /// How vessels may be pushed aside without coming apart. A point p of a vessel moves by
 ///   Δq_p = z_p + φ_start(p) Δ(start node) + φ_end(p) Δ(end node),
 /// where z is free but 0 at an end that hangs on a node, and φ falls smoothly from 1 at the node to 0 as
-/// many points on as a bow takes. A node on a host's side moves as the host's centre line there; any other node has a variable of
-/// its own. Whatever z is, every end stays on its node, and what branches off goes along. The price of a
-/// motion, ½ zᵀ W z, falls apart into one banded matrix a vessel and one number a node. The network must
-/// outlive it; one object serves one caller.
+/// many points on as a bow takes. A node on a host's side moves as the host's centre line there; any other
+/// node has a variable of its own. Whatever z is, every end stays on its node, and what branches off goes
+/// along. The price of a motion, ½ zᵀ W z, falls apart into one banded matrix a vessel and one number a node.
+/// The network must outlive it; one object serves one caller.
 class MotionSpace {
  public:
   /// @param beta    > 0 (avoid/metric.h)

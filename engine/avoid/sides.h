@@ -7,6 +7,9 @@
 
 namespace vasa {
 
+/// The unit vector along a tube at a parameter, zero where there is none.
+vec3 directionAt(const Bezier& tube, float t);
+
 /// What of c is at right angles to two tubes that run along u and v (unit); to their mean alone where they
 /// run about the same way.
 vec3 sideways(vec3 c, vec3 u, vec3 v);
@@ -21,17 +24,12 @@ class RestSides {
   /// All must outlive this.
   RestSides(const Network& network, Interference& interference);
 
-  struct Place {
-    std::uint32_t i, j;  ///< tubes
-    float s, t;
-  };
-
   /// On which side of tube j at t tube i at s lay at rest: the way from C_j(t) to C_i(s) then, turned with
   /// what is around them, less what lies along the two tubes as they run now. Its length, at most 1, is how
   /// sure that is: it falls to 0 where the two were far from one another, or on one another's centre line, or
   /// their surroundings have turned apart.
   /// @param shape  the tubes now
-  vec3 carried(const Place& at, std::span<const Bezier> shape, std::span<const quat> rotations) const;
+  vec3 carried(const Contact& at, std::span<const Bezier> shape, std::span<const quat> rotations) const;
 
   /// Where two vessels that were near one another at rest are nearest now, on another side.
   struct Turned {
@@ -41,8 +39,8 @@ class RestSides {
   };
 
   /// Pairs that have changed sides, whether they overlap or have passed through: those in which two vessels
-  /// are nearest now (which may lie some tubes on), sorted. What lies ahead of a vessel's end is on no side
-  /// of it, nor is what is nearest where the two are joined.
+  /// are nearest now (which may lie some tubes on), sorted. What is farther from the other than what is near at rest is on no side of it, nor is what lies ahead of
+  /// a vessel's end, nor what is nearest where the two are joined.
   void findChanged(std::span<const Bezier> shape, std::span<const quat> rotations,
                    std::vector<Turned>& changed) {
     find(shape, rotations, Which::changed, changed);
@@ -57,7 +55,7 @@ class RestSides {
   /// Cosine of the angle between the side at rest and that now, from which on it counts as changed: 120
   /// degrees.
   static constexpr float kChanged = -0.5f;
-  static constexpr float kSureAtRest = 0.5f;  ///< how sure the side at rest must be for any of these
+  static constexpr float kLeastSure = 0.5f;  ///< how sure the side at rest must be for any of these
 
  private:
   enum class Which { turned, changed };
@@ -75,7 +73,7 @@ class RestSides {
   const Network* network_;
   const Interference* interference_;
   std::vector<Contact> nearAtRest_;
-  std::vector<std::vector<Turned>> found_;  // a task each
+  std::vector<std::optional<Turned>> found_;  // a pair near at rest each
   std::vector<Turned> sortRoom_;
 };
 

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iterator>
-#include <limits>
 #include <utility>
 
 #include "avoid/contact_pool.h"
@@ -15,35 +13,30 @@
 namespace vasa {
 namespace {
 
-// [m] Less of a change is not made to a variable, so that what hangs on it has not moved and is not looked at
-// again. 10 µm, the least clearance, takes twice as many rounds; 1 and 5 take about as long as 3.
-constexpr float kStill = 3e-6f;
 // Of the radii: a step in which something comes deeper into another, and no more lies as it lay, is too long.
 constexpr float kDeepest = 0.5f;
 // Of the radius, counted as a millimetre at least (a bone has no lumen to give way, and its field is no
 // finer): likewise in a bone in which it was not at rest, where the way out that was found is about the
-// nearest one, and where it is not. With 1 for both the scanned body's walk takes a sixth more detections;
-// without a bound on the first it has a jump of 16 mm.
-constexpr float kDeepestInBone = 1.5f, kDeepestUnsure = 1, kLeastRadius = 1e-3f;
-constexpr float kSureOfBone = 0.8f;  // cosine of the two ways: 37 degrees
+// nearest one, and where it is not: there it is half the thickness, as between tubes. With 1 for both the
+// scanned body's walk takes a sixth more detections; without a bound on the first it has a jump of 16 mm.
+constexpr float kDeepestInBone = 1.5f, kLeastRadius = 1e-3f;
 constexpr float kNoLimit = Correction::kNoLimit;
 
-std::uint32_t tubesOf(std::span<const BoneContact> contacts, const auto& counts) {
+std::uint32_t tubesOf(
+    std::span<const BoneContact> contacts,
+    bool (*counts)(const BoneContact&) = [](const BoneContact&) { return true; }) {
   std::uint32_t count = 0, last = ~0u;
   for (const BoneContact& contact : contacts)
     if (counts(contact) && std::exchange(last, contact.tube) != contact.tube) ++count;
   return count;
 }
 
-std::uint32_t tubesOf(std::span<const BoneContact> contacts) {
-  return tubesOf(contacts, [](const BoneContact&) { return true; });
-}
-
 // A bone in which the tube was not at rest, to what that is known.
 bool isEntered(const BoneContact& contact) { return contact.allowed > -kRestTolerance; }
 
 BoneReport reportOf(std::span<const BoneContact> contacts) {
-  BoneReport report{tubesOf(contacts, isEntered), tubesOf(contacts, std::not_fn(isEntered))};
+  BoneReport report{tubesOf(contacts, isEntered),
+                    tubesOf(contacts, [](const BoneContact& contact) { return !isEntered(contact); })};
   for (const BoneContact& contact : contacts)
     report.depth = std::max(report.depth, contact.allowed - contact.f);
   return report;
@@ -223,7 +216,8 @@ void Avoider::State::separate(const Input& in) {
       if (pool.size() == 0) return;
       ++in.report.rounds;
       // In the last rounds the least lack counts.
-      pool.ascend(options.sweeps, round + 2 < options.rounds ? kStill : 0, correction.motions);
+      pool.ascend(options.sweeps, round + 2 < options.rounds ? Correction::kNegligible : 0,
+                  correction.motions);
       pace.keep(accepted.motions, correction.motions, unpaced);
       place(in);
     }
@@ -250,9 +244,7 @@ void Avoider::State::giveWay(const Input& in, bool isLast) {
             for (std::uint32_t p = vessel.firstPoint; p < vessel.firstPoint + vessel.pointCount; ++p)
               correction.widest[p] = std::min(correction.widest[p], in.points[p].w);
           }
-      narrow(network, interference.layout(), entered, interference.tubes(), in.points, lastResort,
-             correction.widest);
-      narrow(network, interference.layout(), remaining, interference.tubes(), in.points, lastResort,
+      narrow(network, interference.layout(), remaining, entered, interference.tubes(), in.points, lastResort,
              correction.widest);
       if (correction.widest == widestBefore) continue;  // nothing gives way, and all lies as it lay
       place(in);
@@ -335,9 +327,9 @@ bool Avoider::State::isTooLong(const Input& in) const {
                              }) ||
          std::ranges::any_of(boneContacts, [&](const BoneContact& contact) {
            const float radius = std::max(tubes[contact.tube].at(contact.s).w, kLeastRadius);
-           const bool isSure = glm::dot(contact.normal, contact.nearestNormal) > kSureOfBone;
+           const bool isSure = glm::dot(contact.normal, contact.nearestNormal) > kSameWayOut;
            return isEntered(contact) &&
-                  contact.allowed - contact.f > (isSure ? kDeepestInBone : kDeepestUnsure) * radius;
+                  contact.allowed - contact.f > (isSure ? kDeepestInBone : 2 * kDeepest) * radius;
          });
 }
 

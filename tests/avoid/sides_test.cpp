@@ -49,6 +49,7 @@ TEST_CASE("vessels that pass through one another have changed sides, overlapping
     CHECK(changedAfter(network, 0.004f) == 0);
     CHECK(changedAfter(network, 0.0075f) > 0);  // overlap beyond one another's centre lines
     CHECK(changedAfter(network, 0.013f) > 0);   // all the way through
+    CHECK(changedAfter(network, 0.03f) == 0);   // so far from one another that they are on no side
   }
 }
 

@@ -339,7 +339,7 @@ TEST_CASE("a pack that there is no time to part gives way, or says that it could
 
 TEST_CASE("where vessels are short of room their lumen gives way") {
   const Network network = crossing(0.012f);
-  Avoider avoider(network, nullptr, {.sweeps = 0});  // nothing is moved
+  Avoider avoider(network, nullptr, {.sweeps = 0});                               // nothing is moved
   const test::Solved solved = solve(avoider, network, lowered(network, 0.006f));  // 6 mm for 8 mm
   CHECK(solved.report.after.holds());
   CHECK(solved.report.movedMax == 0);
