@@ -39,8 +39,9 @@ class RestSides {
   };
 
   /// Pairs that have changed sides, whether they overlap or have passed through: those in which two vessels
-  /// are nearest now (which may lie some tubes on), sorted. What is farther from the other than what is near at rest is on no side of it, nor is what lies ahead of
-  /// a vessel's end, nor what is nearest where the two are joined.
+  /// are nearest now (which may lie some tubes on), sorted. What is farther from the other than what is near
+  /// at rest is on no side of it, nor is what lies ahead of a vessel's end, nor what is nearest where the two
+  /// are joined.
   void findChanged(std::span<const Bezier> shape, std::span<const quat> rotations,
                    std::vector<Turned>& changed) {
     find(shape, rotations, Which::changed, changed);
