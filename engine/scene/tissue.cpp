@@ -158,17 +158,20 @@ Tissue tissueOf(const Body& body, float cell, std::span<const vec3> near, float 
     inside = insideVotes(tissue, surface);
   else
     for (const vec3& p : near) forCubesAround(tissue, p, reach, [&](std::size_t i) { inside[i] = 3; });
-  std::vector<std::uint8_t> solid(tissue.at.size());
-  for (const SkinnedMesh& mesh : body.meshes) {
-    if (&mesh == skin || !isSolid(mesh)) continue;
-    const std::vector<std::uint8_t> votes = insideVotes(tissue, meshAtRest(body, mesh));
-    for (std::size_t i = 0; i < votes.size(); ++i) solid[i] = std::max(solid[i], votes[i]);
-  }
   std::vector<std::uint8_t> rooms(tissue.at.size(), Tissue::kCommon);
   for (std::size_t room = organs.size(); room-- > 0;) {
     const std::vector<std::uint8_t> votes = insideVotes(tissue, meshAtRest(body, *organs[room].mesh));
     for (std::size_t i = 0; i < votes.size(); ++i)
       if (votes[i] >= 2) rooms[i] = std::uint8_t(room + 1);
+  }
+  std::vector<std::uint8_t> solid(tissue.at.size());
+  for (const SkinnedMesh& mesh : body.meshes) {
+    if (&mesh == skin || !isSolid(mesh)) continue;
+    const std::vector<std::uint8_t> votes = insideVotes(tissue, meshAtRest(body, mesh));
+    // What keeps vessels out of an organ (the heart) is no bone in its wall.
+    const bool keepsOut = roleNamed(mesh.name) == MeshRole::keepOut;
+    for (std::size_t i = 0; i < votes.size(); ++i)
+      if (!keepsOut || rooms[i] == Tissue::kCommon) solid[i] = std::max(solid[i], votes[i]);
   }
   std::size_t i = 0;
   for (int z = 0; z < tissue.size.z; ++z) {
@@ -178,9 +181,7 @@ Tissue tissueOf(const Body& body, float cell, std::span<const vec3> near, float 
         tissue.at[i] = inside[i] >= 2 ? std::int32_t(tissue.places.size()) : -1;
         if (tissue.at[i] < 0) continue;
         tissue.places.emplace_back(x, y, z);
-        // What keeps vessels out of an organ (the heart) is no bone in its wall.
-        tissue.kinds.push_back(solid[i] >= 2 && rooms[i] == Tissue::kCommon ? Tissue::Kind::solid
-                                                                            : Tissue::Kind::flesh);
+        tissue.kinds.push_back(solid[i] >= 2 ? Tissue::Kind::solid : Tissue::Kind::flesh);
         tissue.rooms.push_back(rooms[i]);
       }
   }

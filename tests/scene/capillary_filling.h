@@ -24,7 +24,8 @@ class FillingMeter {
     for (const SkinnedMesh& mesh : scene.body.meshes) {
       if (&mesh == skinOf(scene.body)) continue;
       const TriangleMesh rest = meshAtRest(scene.body, mesh);
-      (isSolid(mesh) ? bones_ : organs_).emplace_back(rest.positions, rest.triangles);
+      const bool keepsOut = roleNamed(mesh.name) == MeshRole::keepOut;  // of the heart: walls and chambers
+      (keepsOut ? keptOut_ : isSolid(mesh) ? bones_ : organs_).emplace_back(rest.positions, rest.triangles);
       if (!isSolid(mesh)) organNames_.push_back(mesh.name), organBounds_.push_back(rest.bounds());
     }
     const auto joint = [&](const char* name) {
@@ -43,7 +44,7 @@ class FillingMeter {
     parallelFor(places.size() / 20, 256, [&](std::size_t k) {
       const std::size_t i =
           k * 20 + k % 20;  // a twentieth of them: all of one kind of place would be another
-      faults[i] = std::uint8_t((!skin_.contains(places[i]) ? 1 : 0) | (inBone(places[i]) ? 2 : 0));
+      faults[i] = std::uint8_t((!skin_.contains(places[i]) ? 1 : 0) | (in(bones_, places[i]) ? 2 : 0));
     });
     for (const std::uint8_t fault : faults) filling.outside += fault & 1, filling.inBone += fault >> 1;
     filling.places /= 20;
@@ -67,10 +68,9 @@ class FillingMeter {
   }
 
  private:
-  bool inBone(vec3 p) const {
-    for (const WindingNumber& bone : bones_)
-      if (std::abs(bone.at(p)) >= 0.5f) return true;
-    return false;
+  static bool in(const std::vector<WindingNumber>& solids, vec3 p) {
+    return std::ranges::any_of(solids,
+                               [&](const WindingNumber& solid) { return std::abs(solid.at(p)) >= 0.5f; });
   }
 
   /// Of those organs whose names hold a word, the one that is filled least.
@@ -119,7 +119,7 @@ class FillingMeter {
       for (int y = -n; y < n; ++y)
         for (int x = -n; x < n; ++x) {
           const vec3 p = middle + kCube * (vec3(float(x), float(y), float(z)) + 0.5f);
-          if (!wanted(p) || !skin_.contains(p) || inBone(p)) continue;
+          if (!wanted(p) || !skin_.contains(p) || in(bones_, p) || in(keptOut_, p)) continue;
           ++all;
           filled += taken[indexOf(p)];
         }
@@ -127,7 +127,7 @@ class FillingMeter {
   }
 
   SkinShell skin_;
-  std::vector<WindingNumber> bones_, organs_;
+  std::vector<WindingNumber> bones_, keptOut_, organs_;
   std::vector<std::string> organNames_;
   std::vector<Aabb> organBounds_;
   vec3 hip_, knee_, head_;
