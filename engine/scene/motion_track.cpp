@@ -90,10 +90,10 @@ std::uint64_t trackKey(const Scene& scene, const Clip& clip, const FrameOptions&
     hash = hashOf(std::span(std::as_const(pose.world)), hash);
   }
   hash = hashed(std::array{clip.start, clip.end, clip.framesPerSecond, options.avoidance.bending}, hash);
-  return hashed(std::array{unsigned(options.keep), unsigned(options.slide), unsigned(options.beat),
-                           options.avoidance.rounds, options.avoidance.sweeps,
-                           unsigned(options.avoidance.skinWall)},
-                hash);
+  return hashed(
+      std::array{unsigned(options.keep), unsigned(options.slide), unsigned(options.beat),
+                 options.avoidance.rounds, options.avoidance.sweeps, unsigned(options.avoidance.skinWall)},
+      hash);
 }
 
 void MotionTrack::restart(const Clip& clip, std::size_t variables, std::size_t points,
