@@ -24,8 +24,10 @@ vec3 placeOn(const Course& course, float at);
 struct SettleOptions {
   float betweenVessels = 0.8e-3f;  ///< [m] clearance of walls
   float fromBone = 0.7e-3f, fromHeart = 0.3e-3f;
-  float forkReach =
-      2;  ///< near a fork courses may overlap up to this many times the sum of their radii along them
+  /// Near a fork courses need not be farther apart than this many times the way between them along the
+  /// vessels (branches that open by 60 degrees are): what no course could keep to would drift aside for ever.
+  /// Sweeps may overlap there while that way is shorter than two sums of radii (collide/network_tubes.h).
+  float opening = 0.5f;
   int rounds = 8, stepsPerRound = 30;
 };
 

@@ -137,18 +137,18 @@ class Settler {
 
   /// The way along the vessels between two segments, where it is short.
   float wayBetween(PointRef a, PointRef b) {
-    const auto middle = [&](PointRef p) {
-      return 0.5f * (arcs_[p.course][p.point] + arcs_[p.course][p.point + 1]);
+    const auto half = [&](PointRef p) {
+      return 0.5f * (arcs_[p.course][p.point + 1] - arcs_[p.course][p.point]);
     };
     fromA_.clear();
     fromB_.clear();
-    reach(int(a.course), middle(a), 0, 2, fromA_);
-    reach(int(b.course), middle(b), 0, 2, fromB_);
-    float best = 1e9f;
+    reach(int(a.course), arcs_[a.course][a.point] + half(a), 0, 2, fromA_);
+    reach(int(b.course), arcs_[b.course][b.point] + half(b), 0, 2, fromB_);
+    float best = 1e9f;  // from middle to middle
     for (const Reached& p : fromA_)
       for (const Reached& q : fromB_)
         if (p.course == q.course) best = std::min(best, p.way + q.way + std::abs(p.at - q.at));
-    return best;
+    return std::max(best - half(a) - half(b), 0.0f);
   }
 
   void findPairs() {
@@ -164,8 +164,7 @@ class Settler {
           if (closestOnSegments(c.points[k], c.points[k + 1], s.a, s.b).distance > need + kSearchMargin)
             continue;
           const PointRef a{i, k}, b{s.owner, std::uint32_t(s.at)};
-          if (wayBetween(a, b) > options_.forkReach * (radius + s.radius))
-            pairs_.push_back({a, b, need, shareOf(a, b)});
+          pairs_.push_back({a, b, std::min(need, options_.opening * wayBetween(a, b)), shareOf(a, b)});
         }
       }
       for (std::uint32_t k = 0; k + 1 < c.points.size(); ++k)
