@@ -8,6 +8,7 @@
 #include "core/cancellation.h"
 #include "core/log.h"
 #include "edit/replay.h"
+#include "io/foreign_files.h"
 #include "network/file.h"
 #include "network/measure.h"
 #include "network_output.h"
@@ -37,7 +38,7 @@ struct Inputs {
 Result<Inputs> readInputs(const Options& options) {
   Inputs inputs;
   for (const std::filesystem::path file : options.files) {
-    if (file.extension() != ".vedit") {
+    if (extensionOf(file) != ".vedit") {
       if (!inputs.network.empty())
         return Error{Fault::usage, file.string() + ": a second network beside " + inputs.network.string() +
                                        "; journals end in .vedit"};

@@ -18,6 +18,9 @@ Result<void> checkNetworkOutput(const std::filesystem::path& file) {
                    file.string() + ": a network is written as .vasa; vasa export makes other files of it"};
   const std::filesystem::path folder = file.parent_path();
   std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored))
+    return ioError(file.string() + ": is a folder; name a file in it, for example " +
+                   (file / "network.vasa").string());
   if (!folder.empty() && !std::filesystem::is_directory(folder, ignored))
     return Error{Fault::io, file.string() + ": there is no folder " + folder.string() + "; create it first"};
   return {};

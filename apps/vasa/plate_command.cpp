@@ -13,6 +13,7 @@
 #include "frame_output.h"
 #include "gpu/device.h"
 #include "gpu/error.h"
+#include "io/foreign_files.h"
 #include "io/png.h"
 #include "loading_line.h"
 #include "look_options.h"
@@ -79,7 +80,7 @@ Result<void> checkPixels(vec2 page, double dpi) {
 
 enum class Form { png, svg, pdf };
 Result<Form> formOf(const std::string& file) {
-  const std::string ending = fs::path(file).extension().string();
+  const std::string ending = extensionOf(file);
   if (ending == ".png") return Form::png;
   if (ending == ".svg") return Form::svg;
   if (ending == ".pdf") return Form::pdf;

@@ -17,6 +17,7 @@
 #include "film.h"
 #include "gpu/device.h"
 #include "gpu/error.h"
+#include "io/foreign_files.h"
 #include "loading_line.h"
 #include "look_options.h"
 #include "output_folder.h"
@@ -294,7 +295,7 @@ Result<void> run(const Globals& globals, const Options& options) {
     return Error{Fault::usage, "-o - and --json both want standard output; leave out one"};
   // A device takes what it is given.
   if (const std::filesystem::path name = options.output;
-      !name.empty() && name != "-" && name.extension() != ".png" && !std::filesystem::is_character_file(name))
+      !name.empty() && name != "-" && extensionOf(name) != ".png" && !std::filesystem::is_character_file(name))
     return Error{Fault::usage, "-o " + options.output + ": pictures are PNG files; end the name in .png"};
   auto job = prepare(globals, options);
   if (!job) return job.error();

@@ -3,7 +3,9 @@
 #include <cstdlib>
 
 #include "engine_print.h"
+#include "io/foreign_files.h"
 #include "kept_folders.h"
+#include "scene/vessel_files.h"
 
 // The built-in human is looked for in $VASA_DATA_DIR, then from the program's place: where it is installed
 // (../share/vasa) and where the build puts it (../data).
@@ -38,7 +40,8 @@ KeptFolders keptFolders(std::filesystem::path own) {
 }
 
 void addSceneOptions(CLI::App& sub, SceneOptions& options) {
-  sub.add_option("SCENE", options.scene, "Scene file (.json); nothing: the built-in human");
+  sub.add_option("SCENE", options.scene,
+                 "Scene file (.json), or vessels, alone or in --body; nothing: the built-in human");
   sub.add_option("--body", options.body, "Body with skeleton (glTF)");
   sub.add_option("--network", options.networks,
                  "Vessels (.vasa, or anything that convert reads); may be given several times")
@@ -80,18 +83,30 @@ Result<void> checkNamed(const SceneFile& scene, const SceneOptions& options, con
   return {};
 }
 
+// In a scene's place: of a glTF file by whether it has a skeleton.
+Result<bool> namesVessels(const std::filesystem::path& file) {
+  if (extensionOf(file) == ".vasa" || (!file.empty() && holdsCentrelines(file))) return true;
+  return holdsSurfacesAlone(file);
+}
+
 }  // namespace
 
 Result<SceneFile> chooseScene(const SceneOptions& options, const std::string& growth) {
   SceneFile scene;
-  if (!options.scene.empty()) {
+  const auto vessels = namesVessels(options.scene);
+  if (!vessels) return vessels.error();
+  if (*vessels) {
+    scene.networks = {options.scene};
+  } else if (!options.scene.empty()) {
     auto read = readSceneFile(options.scene);
     if (!read) return read;
     scene = std::move(*read);
     if (auto checked = checkNamed(scene, options, growth); !checked) return checked.error();
   }
   if (!options.body.empty()) scene.body = options.body;
-  if (!options.networks.empty()) {
+  if (*vessels) {
+    scene.networks.insert(scene.networks.end(), options.networks.begin(), options.networks.end());
+  } else if (!options.networks.empty()) {
     scene.networks.assign(options.networks.begin(), options.networks.end());
     scene.holds.clear();  // of other vessels
   }
@@ -104,8 +119,10 @@ Result<SceneFile> chooseScene(const SceneOptions& options, const std::string& gr
     return Error{Fault::usage, "a joint map belongs to a .bvh file; give one with --clip FILE.bvh"};
   if (!scene.body.empty() && scene.networks.empty())
     return Error{Fault::usage, "a body is given but no vessels; add --network FILE.vasa"};
+  if (*vessels && scene.body.empty() && !scene.clip.empty())
+    return Error{Fault::usage, options.scene + ": vessels alone do not move; add --body FILE.glb to --clip"};
   // What is not given is the built-in human's.
-  if (scene.body.empty()) {
+  if (scene.body.empty() && !*vessels) {
     const auto folder = dataFolder();
     if (!folder) return folder.error();
     scene.body = *folder / "human.glb";

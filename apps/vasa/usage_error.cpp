@@ -37,7 +37,8 @@ std::pair<const CLI::App*, std::string> understood(const CLI::App& app) {
 }  // namespace
 
 std::string usageMessage(const CLI::App& app, const CLI::ParseError& error) {
-  const std::vector<std::string> unknown = app.remaining(true);
+  std::vector<std::string> unknown = app.remaining(true);
+  std::erase(unknown, "--");  // what only divides options from files
   const auto [command, name] = understood(app);
   if (unknown.empty()) {
     const auto commands = commandsOf(*command);

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/clock.h"
+#include "io/foreign_files.h"
 #include "io/png.h"
 #include "scene/exporting.h"
 #include "viewer/paint.h"
@@ -16,7 +17,7 @@ constexpr std::array kFiles{".glb", ".obj", ".stl", ".vtp", ".swc", ".csv", ".tu
 constexpr std::array kFilms{".mp4", ".webm"};
 
 bool among(const std::filesystem::path& file, std::span<const char* const> extensions) {
-  return std::ranges::find(extensions, file.extension().string()) != extensions.end();
+  return std::ranges::find(extensions, extensionOf(file)) != extensions.end();
 }
 
 bool ready(const auto& future) {
@@ -34,7 +35,7 @@ std::vector<std::string> exportExtensions() {
 }
 
 bool isFilm(const std::filesystem::path& file) { return among(file, kFilms); }
-bool isPicture(const std::filesystem::path& file) { return file.extension() == ".png"; }
+bool isPicture(const std::filesystem::path& file) { return extensionOf(file) == ".png"; }
 
 struct Exporter::Job {
   ExportWish wish;

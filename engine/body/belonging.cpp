@@ -31,6 +31,7 @@ Result<float> checkBelongs(const Body& body, const SpineSet& spines, std::span<c
                            std::string_view name) {
   const float height = body.height();
   const SkinnedMesh* skin = skinOf(body);
+  if (!skin && spines.joints.size() == 1) return 0.0f;  // one joint turns nothing: no place is wrong
   const std::size_t samples = std::min(points.size(), kPlacesAsked);
   std::optional<SkinShell> shell;
   if (skin) shell.emplace(skin->mesh);
@@ -46,7 +47,8 @@ Result<float> checkBelongs(const Body& body, const SpineSet& spines, std::span<c
   if (share <= kMostOutside) return share;
   return badInput(fmt::format(
       "{}: these vessels do not belong to the body {}: {:.0f} % of them lie {} at rest. Choose the body that they "
-      "were made for; vasa fit carries them from that one to this, vasa place moves what stands elsewhere (vasa help bodies)",
+      "were made for; vasa fit carries them from that one to this, vasa place moves what stands elsewhere, and vasa "
+      "render FILE.vasa draws them without a body (vasa help bodies)",
       name, body.name, 100 * share, skin ? "outside its skin" : "far from all of its joints"));
 }
 

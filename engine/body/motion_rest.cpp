@@ -86,6 +86,14 @@ class FramesStance {
   float leg_ = 0;
 };
 
+// At most so many of as many numbers from 0 on, the first among them.
+std::vector<std::uint32_t> spread(std::uint32_t of, std::uint32_t most) {
+  std::vector<std::uint32_t> numbers;
+  const std::uint32_t count = std::min(most, of);
+  for (std::uint32_t k = 0; k < count; ++k) numbers.push_back(std::uint32_t(std::uint64_t(k) * of / count));
+  return numbers;
+}
+
 }  // namespace
 
 MotionPose motionPose(const Motion& motion, std::uint32_t frame) {
@@ -103,11 +111,17 @@ MotionPose motionPose(const Motion& motion, std::uint32_t frame) {
 }
 
 std::vector<std::uint32_t> sampledFrames(const Motion& motion, std::uint32_t most) {
-  std::vector<std::uint32_t> frames;
-  const std::uint32_t count = std::min(most, motion.frameCount);
-  for (std::uint32_t k = 0; k < count; ++k)
-    frames.push_back(std::uint32_t(std::uint64_t(k) * motion.frameCount / count));
-  return frames;
+  return spread(motion.frameCount, most);
+}
+
+std::vector<std::array<std::uint32_t, 2>> sampledSteps(const Motion& motion, float seconds,
+                                                       std::uint32_t most) {
+  const auto step = std::uint32_t(std::max(1L, std::lround(motion.framesPerSecond * seconds)));
+  std::vector<std::array<std::uint32_t, 2>> steps;
+  if (motion.frameCount > step)
+    for (const std::uint32_t frame : spread(motion.frameCount - step, most))
+      steps.push_back({frame, frame + step});
+  return steps;
 }
 
 // People lie, crawl and swim: how they are stretched out in the frames says little of what is up. A zero pose

@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+#include <cstdint>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -19,6 +21,10 @@ MotionPose motionPose(const Motion& motion, std::uint32_t frame);
 
 /// Some of a motion's frames, evenly, the first one among them.
 std::vector<std::uint32_t> sampledFrames(const Motion& motion, std::uint32_t most);
+/// Steps of about so many seconds that are spread over a motion, as the first and the last frame of each; none of
+/// a motion that is shorter.
+std::vector<std::array<std::uint32_t, 2>> sampledSteps(const Motion& motion, float seconds,
+                                                       std::uint32_t most);
 
 /// Which way is up in a motion: the axis along which its zero pose stands. Another one, along which the
 /// person is stretched out in the frames, only where the feet stay at one height along it and two of three

@@ -33,20 +33,17 @@ float nearestRatio(float times) {
 
 // What the feet of a motion say of its places: how many times too short its hips' way is.
 float timesByFeet(const Motion& motion, const RestStance& stance) {
-  const auto step = std::uint32_t(std::max(1L, std::lround(motion.framesPerSecond * kStepSeconds)));
   std::vector<float> times;
   std::size_t telling = 0;
-  for (const std::uint32_t frame : sampledFrames(motion, kStepsAsked)) {
-    if (frame + step >= motion.frameCount) break;
-    const MotionPose before = motionPose(motion, frame), after = motionPose(motion, frame + step);
-    const RestStance::StandingFoot a = stance.standingFoot(before), b = stance.standingFoot(after);
-    if (a.side < 0 || a.side != b.side) continue;
-    const vec3 back = a.fromHips - b.fromHips,
-               hips = after.places[stance.hips()] - before.places[stance.hips()];
-    const float far = glm::length(back), hipsFar = glm::length(hips);
+  for (const auto& [from, to] : sampledSteps(motion, kStepSeconds, kStepsAsked)) {
+    const MotionPose before = motionPose(motion, from);
+    const auto step = stance.standingStep(before, motionPose(motion, to));
+    const float far = step ? glm::length(step->foot) : 0;
     if (!(far > kStill * stance.legLength(before))) continue;
     ++telling;
-    if (hipsFar > 0 && glm::dot(back, hips) > kAgainst * far * hipsFar) times.push_back(far / hipsFar);
+    if (const float hips = glm::length(step->hips);
+        hips > 0 && -glm::dot(step->foot, step->hips) > kAgainst * far * hips)
+      times.push_back(far / hips);
   }
   if (times.size() < kLeast) return 1;
   std::ranges::sort(times);

@@ -59,6 +59,13 @@ RestStance::StandingFoot RestStance::standingFoot(const MotionPose& pose) const 
   return foot;
 }
 
+std::optional<RestStance::StandingStep> RestStance::standingStep(const MotionPose& before,
+                                                                 const MotionPose& after) const {
+  const StandingFoot from = standingFoot(before), to = standingFoot(after);
+  if (from.side < 0 || from.side != to.side) return std::nullopt;
+  return StandingStep{after.places[hips_] - before.places[hips_], to.fromHips - from.fromHips};
+}
+
 RestStance::Uprightness RestStance::uprightness(const MotionPose& pose, vec3 axis) const {
   Uprightness result;
   const auto along = [&](vec3 a, vec3 b) {

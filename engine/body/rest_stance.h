@@ -22,13 +22,18 @@ class RestStance {
   vec3 up(const MotionPose& pose) const;
   /// The lower of both feet along an axis, or of what is known of the legs.
   float lowFoot(const MotionPose& pose, vec3 axis) const;
-  /// The foot on which a person stands, as their own legs are stretched: seen from the hips. Its side must
-  /// stay the same for a step.
+  /// The foot on which a person stands, as their own legs are stretched: seen from the hips.
   struct StandingFoot {
     int side = -1;  ///< of kBothSides
     vec3 fromHips{0};
   };
   StandingFoot standingFoot(const MotionPose& pose) const;
+  /// The ways of the hips, and of the foot as seen from them, between two poses; nothing where a person does
+  /// not stand on one foot all the time. Of a foot that stays where it is they are opposite.
+  struct StandingStep {
+    vec3 hips, foot;
+  };
+  std::optional<StandingStep> standingStep(const MotionPose& before, const MotionPose& after) const;
   /// Cosines of the trunk with an axis and of each bone of the legs with its opposite.
   struct Uprightness {
     float trunk = 0, worstLeg = 1, sum = 0;

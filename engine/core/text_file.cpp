@@ -40,23 +40,23 @@ bool isUtf16(std::string_view text) {
   return zeros(0) || zeros(1);
 }
 
-std::string_view otherContent(std::string_view bytes) {
-  if (isUtf16(bytes)) return "the text is UTF-16; save it as UTF-8 (in an editor: Save as, encoding UTF-8)";
-  if (bytes.starts_with("\x1f\x8b")) return "it is packed by gzip; unpack it first";
+std::optional<OtherContent> otherContent(std::string_view bytes) {
+  if (isUtf16(bytes))
+    return OtherContent{"the text is UTF-16", "save it as UTF-8 (in an editor: Save as, encoding UTF-8)"};
+  if (bytes.starts_with("\x1f\x8b")) return OtherContent{"it is packed by gzip", "unpack it first"};
   if (bytes.starts_with("version https://git-lfs"))
-    return "it is a pointer of Git LFS; fetch the file that it stands for (git lfs pull)";
+    return OtherContent{"it is a pointer of Git LFS", "fetch the file that it stands for (git lfs pull)"};
   constexpr std::string_view kPages[] = {"<!doctype html", "<html"};
   const std::string head = lowerCase(bytes.substr(0, 256));
   const std::size_t first = std::min(head.find_first_not_of(" \t\r\n"), head.size());
   for (const std::string_view page : kPages)
     if (std::string_view(head).substr(first).starts_with(page))
-      return "it is a web page, saved in place of the file; download the file itself";
+      return OtherContent{"it is a web page, saved in place of the file", "download the file itself"};
   return {};
 }
 
 Result<std::string_view> plainText(std::string_view text, const std::string& name, std::string& kept) {
-  if (const std::string_view other = otherContent(text); !other.empty())
-    return badInput(name + ": " + std::string(other));
+  if (const auto other = otherContent(text)) return badInput(name + ": " + other->text());
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   if (const std::string_view shorter = text.substr(0, text.find_last_not_of(kEndMarks) + 1);
       shorter.size() < text.size() && std::ranges::none_of(shorter, isBinary))

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -12,9 +13,14 @@ namespace vasa {
 /// Whether a text is UTF-16: by its byte order mark, or by zeros in every other one of its first bytes.
 bool isUtf16(std::string_view text);
 
-/// What a file holds in place of what its name promises, and what to do: UTF-16, what gzip packed, a pointer
-/// of Git LFS, a web page that was saved for the file; empty where it seems to be itself.
-std::string_view otherContent(std::string_view bytes);
+/// What a file holds in place of what its name promises, and what to do.
+struct OtherContent {
+  std::string_view what, remedy;
+  std::string text() const { return std::string(what).append("; ").append(remedy); }
+};
+/// UTF-16, what gzip packed, a pointer of Git LFS, a web page that was saved for the file; nothing where it
+/// seems to be itself.
+std::optional<OtherContent> otherContent(std::string_view bytes);
 
 /// The text behind a byte order mark, without marks of an end (Ctrl-Z, zeros) where it has no other bytes of
 /// numbers. Where no line feed ends a line, carriage returns do (as on old Macs):

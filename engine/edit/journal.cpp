@@ -206,6 +206,7 @@ class Reader {
 
   void name(const char* what, std::string& value) {
     if (!more(what)) return;
+    bare |= !words_[next_].isQuoted;
     value = words_[next_++].text;
     if (value.empty()) fail(fmt::format("{} must not be empty", what));
   }
@@ -262,6 +263,7 @@ class Reader {
     if (next_ < words_.size()) fail(fmt::format("{} is one word too many", shown()));
   }
   std::optional<std::string> fault;
+  bool bare = false;  ///< a name stands without quotes
 
  private:
   bool more(const char* what) {
@@ -371,8 +373,10 @@ Result<std::vector<Edit>> parseJournal(std::string_view text, const std::string&
     Reader reader(words, 1);
     std::visit([&](auto& value) { describe(reader, value), reader.atEnd(); }, *operation);
     if (reader.fault)
-      return badInput(fmt::format("{}{}: {}; write {}", where, operationName(*operation), *reader.fault,
-                                  grammarOf(*operation)));
+      return badInput(fmt::format("{}{}: {}; write {}{}", where, operationName(*operation), *reader.fault,
+                                  grammarOf(*operation),
+                                  reader.bare ? ", names of several words in double quotes (\"aortic arch\")"
+                                              : ""));
     edits.push_back({std::move(*operation), name, number});
   }
   return edits;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "body/clip.h"
+#include "body/motion_leaps.h"
 #include "body/motion_units.h"
 #include "body/rig.h"
 #include "core/atomic_file.h"
@@ -340,7 +341,13 @@ Motion inOrder(Motion motion) {
         "sees them");
   const MotionUnits units = motionUnits(motion, rig.parts.of);
   if (!units.one()) warn(describeUnits(units));
-  return inOneUnit(std::move(motion), units);
+  motion = inOneUnit(std::move(motion), units);
+  if (const auto leaps = leapsOf(motion, rig.parts.of); !leaps.empty())
+    warn(std::to_string(leaps.size()) + " of its frames go on from the one before as no person does, the first is frame " +
+         std::to_string(leaps.front()) +
+         ": a tracker lost its person there, or another pose was put in front; mend them in the program that "
+         "recorded them, or choose frames without them (--frames FIRST:LAST)");
+  return motion;
 }
 
 }  // namespace

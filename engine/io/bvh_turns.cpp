@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kRadians = 3.14159265358979323846 / 180;
 constexpr std::uint32_t kStepsAsked = 48;
-constexpr float kStepsASecond =
-    15;                         // shorter ones are within a recording's noise, in longer ones feet change
+// Shorter ones are within a recording's noise, in longer ones feet change.
+constexpr float kStepSeconds = 1.0f / 15;
 constexpr float kGoes = 0.03f;  // of a leg: the hips' least way in a step that tells, 0.4 m a second
 constexpr std::size_t kLeastSteps = 8;
 // The foot's way beside the hips': as recorded it is 0.06 to 0.15 (walks, somebody who bends and lifts), in
@@ -25,12 +25,10 @@ std::optional<float> slideOf(const Motion& motion, std::span<const std::array<st
                              const RestStance& stance) {
   std::vector<float> slides;
   for (const auto& [from, to] : steps) {
-    const MotionPose before = motionPose(motion, from), after = motionPose(motion, to);
-    const auto a = stance.standingFoot(before), b = stance.standingFoot(after);
-    const vec3 way = after.places[stance.hips()] - before.places[stance.hips()];
-    const float far = glm::length(way);
-    if (a.side < 0 || a.side != b.side || !(far > kGoes * stance.legLength(before))) continue;
-    slides.push_back(glm::length(way + b.fromHips - a.fromHips) / far);
+    const MotionPose before = motionPose(motion, from);
+    const auto step = stance.standingStep(before, motionPose(motion, to));
+    const float far = step ? glm::length(step->hips) : 0;
+    if (far > kGoes * stance.legLength(before)) slides.push_back(glm::length(step->hips + step->foot) / far);
   }
   if (slides.size() < kLeastSteps) return std::nullopt;
   const auto middle = slides.begin() + std::ptrdiff_t(slides.size() / 2);
@@ -80,15 +78,8 @@ void addBvhPose(std::span<const BvhChannel> channels, std::span<const double> va
   motion.translations.push_back(place);
 }
 
-BvhSteps::BvhSteps(const Motion& motion) {
-  const auto step = std::uint32_t(std::max(1L, std::lround(motion.framesPerSecond / kStepsASecond)));
-  if (motion.frameCount <= step) return;
-  Motion starts;
-  starts.frameCount = motion.frameCount - step;
-  for (const std::uint32_t frame : sampledFrames(starts, kStepsAsked)) {
-    steps_.push_back({frame, frame + step});
-    frames_.insert(frames_.end(), {frame, frame + step});
-  }
+BvhSteps::BvhSteps(const Motion& motion) : steps_(sampledSteps(motion, kStepSeconds, kStepsAsked)) {
+  for (const auto& ends : steps_) frames_.insert(frames_.end(), ends.begin(), ends.end());
   std::ranges::sort(frames_);
   frames_.erase(std::unique(frames_.begin(), frames_.end()), frames_.end());
   for (auto& ends : steps_)

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <span>
 
 #include "core/log.h"
 #include "io/gltf_accessor.h"
@@ -109,6 +110,32 @@ Clip readClip(const Asset& asset, const Model::Animation& animation, const std::
   return clip;
 }
 
+// Some exporters write an animation for each joint: together they are what the person does. Those of which each
+// moves one joint, no two the same, and all of them most joints.
+bool areOneMotion(std::span<const Clip> clips, std::size_t joints) {
+  std::set<std::uint32_t> moved;
+  for (const Clip& clip : clips)
+    if (clip.tracks.size() != 1 || !moved.insert(clip.tracks.front().joint.value).second) return false;
+  return clips.size() > 1 && 2 * clips.size() > joints;
+}
+
+Clip together(std::span<Clip> clips) {
+  const auto keys = [](const Clip& clip) {
+    const JointTracks& tracks = clip.tracks.front();
+    return std::max(
+        {tracks.translation.times.size(), tracks.rotation.times.size(), tracks.scale.times.size()});
+  };
+  Clip whole;
+  whole.name = clips.front().name;
+  whole.framesPerSecond = std::ranges::max_element(clips, {}, keys)->framesPerSecond;
+  whole.start = std::ranges::min_element(clips, {}, &Clip::start)->start;
+  whole.end = std::ranges::max_element(clips, {}, &Clip::end)->end;
+  for (Clip& clip : clips) whole.tracks.push_back(std::move(clip.tracks.front()));
+  std::ranges::sort(whole.tracks, {}, [](const JointTracks& tracks) { return tracks.joint.value; });
+  checkLength(whole);
+  return whole;
+}
+
 // Names that clips have already; in step with their number, as a file may have very many of one name.
 class ClipNames {
  public:
@@ -168,6 +195,11 @@ std::vector<Clip> readClips(const Asset& asset, const std::vector<JointId>& join
     }
     clip.name = names.unique(clip.name);
     clips.push_back(std::move(clip));
+  }
+  if (areOneMotion(clips, std::size_t(std::ranges::count_if(jointOfNode, &JointId::valid)))) {
+    logInfo(asset.name + ": " + std::to_string(clips.size()) +
+            " animations that move a joint each are played together, as \"" + clips.front().name + "\"");
+    clips = {together(clips)};
   }
   if (broken > 0)
     logWarning(asset.name + ": " + std::to_string(broken) + " of " +

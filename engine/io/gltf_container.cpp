@@ -138,10 +138,8 @@ bool isGlb(std::span<const std::byte> bytes, const std::filesystem::path& path) 
 }  // namespace
 
 Container openContainer(std::span<const std::byte> bytes, const std::filesystem::path& path) {
-  if (const std::string_view other = otherContent(asText(bytes)); !other.empty()) {
-    const std::size_t end = other.find("; ");
-    breaks("byte 0", std::string(other.substr(0, end)), std::string(other.substr(end + 2)));
-  }
+  if (const auto other = otherContent(asText(bytes)))
+    breaks("byte 0", std::string(other->what), std::string(other->remedy));
   const Container container =
       isGlb(bytes, path) ? splitGlb(bytes, path) : Container{asText(bytes), std::nullopt, false};
   if (container.json.size() > kMaximumJsonBytes)

@@ -236,8 +236,8 @@ Result<std::vector<MeshElement>> parseStl(std::span<const std::byte> bytes, cons
   const bool fitsBinary =
       bytes.size() >= kHeaderBytes &&
       bytes.size() == kHeaderBytes + kFacetBytes * std::uint64_t(littleEndian(bytes.data() + 80));
-  if (const std::string_view other = otherContent(text); !fitsBinary && !other.empty())
-    return badInput(file + ": " + std::string(other));
+  if (const auto other = otherContent(text); other && !fitsBinary)
+    return badInput(file + ": " + other->text());
   const bool ascii = !fitsBinary && beginsAsText(text);
   if (!ascii && bytes.size() < kHeaderBytes)
     return badInput(file + ": neither ASCII nor binary STL: " + std::to_string(bytes.size()) +

@@ -14,6 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "io/foreign_files.h"
+
 extern char** environ;
 
 namespace vasa {
@@ -39,7 +41,7 @@ const Format* formatOf(const std::filesystem::path& path) {
       {".webm", {"-c:v", "libvpx-vp9", "-crf", "30", "-b:v", "0", "-f", "webm"}},
   }};
   for (const Format& format : formats)
-    if (path.extension() == format.extension) return &format;
+    if (extensionOf(path) == format.extension) return &format;
   return nullptr;
 }
 

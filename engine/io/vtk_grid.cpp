@@ -51,7 +51,8 @@ CellKind kindOf(double type, std::size_t cell) {
   }
 }
 
-// Numbers of the arrays of one component. @param numbers  of all of them so far
+// Numbers of the arrays of one component, behind those of the pieces before.
+// @param numbers  of all of them so far
 void addData(XmlFile& file, const XMLElement& piece, const char* kind, const Amounts& most,
              std::size_t& numbers, std::vector<Array>& data) {
   const XMLElement* parent = piece.FirstChildElement(kind);
@@ -63,9 +64,9 @@ void addData(XmlFile& file, const XMLElement& piece, const char* kind, const Amo
       continue;
     const Numbers told = file.numbers(*e, std::string(kPlace) + "/" + kind + "/" + name);
     Amounts::check(std::string(kPlace) + "/" + kind, "numbers", numbers += told.size(), most.cellNumbers);
-    Array array{name, {}};
-    for (std::size_t i = 0; i < told.size(); ++i) array.values.push_back(told[i]);
-    data.push_back(std::move(array));
+    auto array = std::ranges::find(data, name, &Array::name);
+    if (array == data.end()) array = data.insert(array, {name, {}});
+    for (std::size_t i = 0; i < told.size(); ++i) array->values.push_back(told[i]);
   }
 }
 
@@ -74,6 +75,31 @@ Numbers arrayOf(XmlFile& file, const XMLElement& piece, const char* parent, cons
   const XMLElement* array = arrayNamed(piece.FirstChildElement(parent), name);
   if (!array) breaks(place, "is missing");
   return file.numbers(*array, place);
+}
+
+// The cells of a piece, whose points are `count` from `firstPoint` on.
+void addCells(XmlFile& file, const XMLElement& piece, std::size_t firstPoint, std::size_t count,
+              const Amounts& most, Cells& cells, std::vector<double>& types) {
+  const Numbers corners = arrayOf(file, piece, "Cells", "connectivity"),
+                ends = arrayOf(file, piece, "Cells", "offsets"), told = arrayOf(file, piece, "Cells", "types");
+  const std::size_t firstCorner = cells.points.size();
+  Amounts::check(std::string(kPlace) + "/Cells/types", "cells",
+                 cells.size() + std::max(told.size(), ends.size()), most.lines);
+  Amounts::check(std::string(kPlace) + "/Cells/connectivity", "cells' points", firstCorner + corners.size(),
+                 most.corners);
+  for (std::size_t i = 0; i < told.size(); ++i) types.push_back(told[i]);
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    if (!(corners[k] >= 0 && corners[k] < double(count)))
+      breaks(std::string(kPlace) + "/Cells/connectivity",
+             "value " + std::to_string(k) + " lies outside the " + std::to_string(count) + " points");
+    cells.points.push_back(std::uint32_t(firstPoint + std::size_t(corners[k])));
+  }
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    if (!(ends[i] >= (i > 0 ? ends[i - 1] : 0) && ends[i] <= double(corners.size())))
+      breaks(std::string(kPlace) + "/Cells/offsets",
+             "value " + std::to_string(i) + " must not fall and not exceed the connectivity");
+    cells.ends.push_back(std::uint32_t(firstCorner + std::size_t(ends[i])));
+  }
 }
 
 }  // namespace
@@ -109,41 +135,26 @@ Sections gridSections(std::span<const std::byte> bytes) {
   const XMLElement& grid = file.data("UnstructuredGrid");
   const XMLElement* piece = grid.FirstChildElement("Piece");
   if (!piece) breaks(kPlace, "is empty; write the file again");
-  if (piece->NextSiblingElement("Piece"))
-    breaks(kPlace, "is in several pieces; put them together (ParaView: Merge Blocks) and save it again");
-  Sections out;
-  const XMLElement* points = piece->FirstChildElement("Points");
-  const XMLElement* array = points ? points->FirstChildElement("DataArray") : nullptr;
-  if (!array) breaks(std::string(kPlace) + "/Points", "is missing");
-  const Numbers xyz = file.numbers(*array, std::string(kPlace) + "/Points");
   const Amounts most(bytes.size());
-  Amounts::check(std::string(kPlace) + "/Points", "points", xyz.size() / 3, most.points);
-  for (std::size_t i = 0; i + 2 < xyz.size(); i += 3) out.points.emplace_back(xyz[i], xyz[i + 1], xyz[i + 2]);
-  std::size_t numbers = 0;
-  addData(file, *piece, "PointData", most, numbers, out.pointData);
-  addData(file, *piece, "CellData", most, numbers, out.cellData);
-  const Numbers corners = arrayOf(file, *piece, "Cells", "connectivity"),
-                ends = arrayOf(file, *piece, "Cells", "offsets"),
-                told = arrayOf(file, *piece, "Cells", "types");
-  Amounts::check(std::string(kPlace) + "/Cells/types", "cells", std::max(told.size(), ends.size()),
-                 most.lines);
-  Amounts::check(std::string(kPlace) + "/Cells/connectivity", "cells' points", corners.size(), most.corners);
+  Sections out;
   Cells cells;
   std::vector<double> types;
-  for (std::size_t i = 0; i < told.size(); ++i) types.push_back(told[i]);
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    if (!(corners[k] >= 0 && corners[k] < double(out.points.size())))
-      breaks(std::string(kPlace) + "/Cells/connectivity", "value " + std::to_string(k) +
-                                                              " lies outside the " +
-                                                              std::to_string(out.points.size()) + " points");
-    cells.points.push_back(std::uint32_t(corners[k]));
+  for (std::size_t numbers = 0; piece; piece = piece->NextSiblingElement("Piece")) {
+    const XMLElement* points = piece->FirstChildElement("Points");
+    const XMLElement* array = points ? points->FirstChildElement("DataArray") : nullptr;
+    if (!array) breaks(std::string(kPlace) + "/Points", "is missing");
+    const Numbers xyz = file.numbers(*array, std::string(kPlace) + "/Points");
+    const std::size_t firstPoint = out.points.size(), count = xyz.size() / 3;
+    Amounts::check(std::string(kPlace) + "/Points", "points", firstPoint + count, most.points);
+    for (std::size_t i = 0; i + 2 < xyz.size(); i += 3)
+      out.points.emplace_back(xyz[i], xyz[i + 1], xyz[i + 2]);
+    addData(file, *piece, "PointData", most, numbers, out.pointData);
+    addData(file, *piece, "CellData", most, numbers, out.cellData);
+    addCells(file, *piece, firstPoint, count, most, cells, types);
   }
-  for (std::size_t i = 0; i < ends.size(); ++i) {
-    if (!(ends[i] >= (i > 0 ? ends[i - 1] : 0) && ends[i] <= double(corners.size())))
-      breaks(std::string(kPlace) + "/Cells/offsets",
-             "value " + std::to_string(i) + " must not fall and not exceed the connectivity");
-    cells.ends.push_back(std::uint32_t(ends[i]));
-  }
+  // What not every piece tells has too few numbers by now.
+  std::erase_if(out.pointData, [&](const Array& array) { return array.values.size() != out.points.size(); });
+  std::erase_if(out.cellData, [&](const Array& array) { return array.values.size() != cells.size(); });
   divideCells(out, cells, types);
   return out;
 }

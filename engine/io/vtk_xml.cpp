@@ -65,7 +65,7 @@ std::int64_t countOf(const XMLElement& piece, const char* name, const std::strin
 
 XmlFile::XmlFile(std::span<const std::byte> bytes) : mostContent_(partOfMemory(bytes.size(), 6, 16)) {
   std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (const std::string_view other = otherContent(text); !other.empty()) breaks("/", std::string(other));
+  if (const auto other = otherContent(text)) breaks("/", other->text());
   std::string xml(takeAppended(text));
   if (const std::size_t memory = xmlMemory(xml), most = partOfMemory(bytes.size(), 10, 24); memory > most)
     breaks("/", "the XML " + beyondMemory(memory, most) + "; split or reduce it");

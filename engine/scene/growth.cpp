@@ -160,7 +160,8 @@ CapillaryBeds growthBeds(const Scene& scene, const GrowthRules& rules,
   const std::vector<Station> stations = mainStations(scene.binding);
   const std::vector<bool> drawn = drawnSpans(table);
   CapillaryBeds beds{.spans = wholeSpans(network), .beds = {}, .regionOfBed = {}, .regionOfSpan = {}};
-  const float scale = scene.body.height() / kTableHeight;
+  const float height = scene.body.height();  // of vessels alone none is known
+  const float scale = (height > 0 ? height : network.bodyHeight()) / kTableHeight;
   const Organs organs = organsOf(scene.body, regions, scale);
   BedWish wish{.rules = rules,
                .regions = regions,

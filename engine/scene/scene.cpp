@@ -117,9 +117,18 @@ void tellFreed(const Network& edited, std::span<const VesselHold> holds) {
     logWarning("after the edits no vessel bears these names, and none is held there: " + freed);
 }
 
+// Of vessels that stand alone: one joint, which nothing moves.
+Body noBody() {
+  Body body;
+  body.name = "no body";
+  body.skeleton.joints.emplace_back().name = "vessels";
+  return body;
+}
+
 }  // namespace
 
 Result<Body> loadBody(const SceneFile& file) {
+  if (file.body.empty()) return noBody();
   auto body = readBody(file.body);
   if (!body || !isMotionFile(file.clip)) return body;
   if (auto added = addMotion(file, *body); !added) return added.error();
@@ -141,7 +150,7 @@ Result<Scene> loadScene(const SceneFile& file, const ReadingProgress& told) {
     tell("reading vessels");
     auto network = readVessels(path, body->height(), told);
     if (!network) return network.error();
-    if (file.networks.size() > 1)
+    if (file.networks.size() > 1 && !file.body.empty())
       if (const auto near = checkNear(*body, network->points(), path.filename().string()); !near)
         return near.error();
     networks.push_back(std::move(*network));

@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/atomic_file.h"
 #include "core/text_file.h"
@@ -92,7 +93,11 @@ class Reader {
     return [this, &out](const Json& value, const std::string& place) {
       std::string name;
       text(name)(value, place);
-      if (!name.empty()) out = folder_ / name;
+      if (name.empty()) return;
+      out = folder_ / name;
+      if (std::error_code ignored; std::filesystem::exists(out, ignored)) return;
+      std::ranges::replace(name, '\\', '/');  // as it was written on Windows
+      out = folder_ / name;
     };
   }
   Field texts(std::vector<std::string>& out, std::size_t most) {
@@ -219,6 +224,24 @@ void readPose(Reader& reader, const Json& value, const std::string& place, std::
   }
 }
 
+// Of a key that an object has twice JSON's readers keep the last one, without a word.
+class KeysOnce {
+ public:
+  bool operator()(int depth, Json::parse_event_t event, const Json& parsed) {
+    if (depth > kMaximumDepth) throw BrokenRule{"", "is nested too deeply; scenes have few levels"};
+    keys_.resize(kMaximumDepth + 2);
+    if (event == Json::parse_event_t::object_start) keys_[std::size_t(depth) + 1].clear();
+    if (event != Json::parse_event_t::key) return true;
+    const std::string key = parsed.get<std::string>();
+    if (!keys_[std::size_t(depth)].insert(key).second)
+      throw BrokenRule{"/" + key, " is there twice; leave one of them out"};
+    return true;
+  }
+
+ private:
+  std::vector<std::set<std::string>> keys_;  // of the object at each depth that is being read
+};
+
 Error noScene(const std::string& name) {
   return badInput(
       name +
@@ -233,13 +256,17 @@ Result<SceneFile> parseScene(const std::string& text, const std::filesystem::pat
                              const std::string& name) {
   Json json;
   try {
-    json = Json::parse(text, [](int depth, Json::parse_event_t, Json&) {
-      if (depth > kMaximumDepth) throw std::runtime_error("is nested too deeply");
-      return true;
-    });
+    json = Json::parse(text, KeysOnce(), true, true);  // with exceptions, and comments as C++ has them
+  } catch (const BrokenRule& broken) {
+    if (extensionOf(name) != ".json") return noScene(name);
+    return badInput(name + ": " + broken.place + broken.rule);
   } catch (const std::exception& error) {
     if (extensionOf(name) != ".json") return noScene(name);
-    return badInput(name + ": is not valid JSON: " + error.what());
+    std::string what = error.what();
+    what.erase(0, what.find("] ") + 2);  // "[json.exception.parse_error.101] "
+    return badInput(name + ": is not valid JSON: " + what +
+                    "; mend it there: words stand in double quotes, commas between two things and not behind "
+                    "the last");
   }
   SceneFile scene;
   Reader reader(folder);

@@ -82,7 +82,7 @@ struct ViewChoice {
 ///     "labels": ["coeliac trunk"],
 ///     "views": { "1": { "position": [x,y,z], "target": [x,y,z], "angle": 30, "orthographic": true } } }
 struct SceneFile {
-  std::filesystem::path body;
+  std::filesystem::path body;  ///< empty: vessels alone, which nothing moves
   std::vector<std::filesystem::path> networks;
   std::vector<std::filesystem::path>
       edits;  ///< journals (edit/journal.h), replayed in order onto all networks together

@@ -219,7 +219,9 @@ TriangleMesh meshOf(const std::vector<SourceElement>& sources) {
   return whole;
 }
 
-Result<Centrelines> readCentrelines(const std::filesystem::path& path, const VesselImport& import) {
+namespace {
+
+Result<Centrelines> linesOf(const std::filesystem::path& path, const VesselImport& import) {
   const std::string name = path.stem().string();
   const VesselKind kind = import.kind.value_or(kindOf(MeshElement{name, {}, {}, {}}, name));
   if (isMarkupsFile(path)) {
@@ -229,7 +231,7 @@ Result<Centrelines> readCentrelines(const std::filesystem::path& path, const Ves
   }
   if (extensionOf(path) == ".swc") {
     const auto samples = readSwc(path, import.frame);
-    if (!samples) return withTrueKind(samples.error(), path);
+    if (!samples) return samples.error();
     Centrelines traces = centrelinesOfSwc(*samples, name, kind);
     if (import.kind)
       for (Centrelines::Line& line : traces.lines) line.kind = kind;
@@ -243,6 +245,13 @@ Result<Centrelines> readCentrelines(const std::filesystem::path& path, const Ves
   if (!centrelines) return badInput(path.string() + ": " + centrelines.error().message);
   if (!lines->find("VesselIds")) joinTouchingLines(*centrelines);  // ours say themselves what is joined
   return centrelines;
+}
+
+}  // namespace
+
+Result<Centrelines> readCentrelines(const std::filesystem::path& path, const VesselImport& import) {
+  auto lines = linesOf(path, import);
+  return lines ? std::move(lines) : withTrueKind(lines.error(), path);
 }
 
 Result<Network> readNetworkFile(const std::filesystem::path& path) {
