@@ -294,8 +294,9 @@ Result<void> run(const Globals& globals, const Options& options) {
   if (options.output == "-" && globals.json)
     return Error{Fault::usage, "-o - and --json both want standard output; leave out one"};
   // A device takes what it is given.
-  if (const std::filesystem::path name = options.output;
-      !name.empty() && name != "-" && extensionOf(name) != ".png" && !std::filesystem::is_character_file(name))
+  if (const std::filesystem::path name = options.output; !name.empty() && name != "-" &&
+                                                         extensionOf(name) != ".png" &&
+                                                         !std::filesystem::is_character_file(name))
     return Error{Fault::usage, "-o " + options.output + ": pictures are PNG files; end the name in .png"};
   auto job = prepare(globals, options);
   if (!job) return job.error();

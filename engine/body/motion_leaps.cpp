@@ -10,8 +10,8 @@ namespace vasa {
 namespace {
 
 constexpr float kFastest = 16;  // [legs/s]: who runs fastest makes 12.4 m a second, 14.5 of their legs
-// Below this a limb may well turn by a right angle between two frames. The fastest, of who throws or kicks, turn
-// by some 70 degrees in a thirtieth of a second.
+// Below this a limb may well turn by a right angle between two frames. The fastest, of who throws or kicks,
+// turn by some 70 degrees in a thirtieth of a second.
 constexpr float kFewestFrames = 24;  // a second
 
 }  // namespace
@@ -27,9 +27,8 @@ std::vector<std::uint32_t> leapsOf(const Motion& motion, std::span<const std::st
     return kNone;
   };
   for (const std::string side : kBothSides)
-    for (const auto& [from, to] :
-         {std::pair("UpperArm", "LowerArm"), std::pair("LowerArm", "Hand"), std::pair("UpperLeg", "LowerLeg"),
-          std::pair("LowerLeg", "Foot")})
+    for (const auto& [from, to] : {std::pair("UpperArm", "LowerArm"), std::pair("LowerArm", "Hand"),
+                                   std::pair("UpperLeg", "LowerLeg"), std::pair("LowerLeg", "Foot")})
       if (const std::uint32_t a = numberOf(side + from), b = numberOf(side + to); a != kNone && b != kNone)
         bones.emplace_back(a, b);
   const float farthest = kFastest * leg / motion.framesPerSecond;

@@ -21,8 +21,8 @@ MotionPose motionPose(const Motion& motion, std::uint32_t frame);
 
 /// Some of a motion's frames, evenly, the first one among them.
 std::vector<std::uint32_t> sampledFrames(const Motion& motion, std::uint32_t most);
-/// Steps of about so many seconds that are spread over a motion, as the first and the last frame of each; none of
-/// a motion that is shorter.
+/// Steps of about so many seconds that are spread over a motion, as the first and the last frame of each;
+/// none of a motion that is shorter.
 std::vector<std::array<std::uint32_t, 2>> sampledSteps(const Motion& motion, float seconds,
                                                        std::uint32_t most);
 

@@ -206,7 +206,7 @@ class Reader {
 
   void name(const char* what, std::string& value) {
     if (!more(what)) return;
-    bare |= !words_[next_].isQuoted;
+    bare_ = !words_[next_].isQuoted;
     value = words_[next_++].text;
     if (value.empty()) fail(fmt::format("{} must not be empty", what));
   }
@@ -216,9 +216,11 @@ class Reader {
     if (mark && !text.empty() && text.front() == mark) text.remove_prefix(1);
     const auto [end, cause] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (words_[next_].isQuoted || cause != std::errc() || end != text.data() + text.size() ||
-        !(value >= low && value <= high))
+        !(value >= low && value <= high)) {
+      breaksName = bare_ && isNoNumber();
       return fail(fmt::format("{} must be a number from {} to {}, not {}", what, low, high, shown()));
-    ++next_;
+    }
+    ++next_, bare_ = false;
   }
   void vector(const char* what, dvec3& value, double most) {
     const std::string names(what);
@@ -260,15 +262,23 @@ class Reader {
     if (!holds) fail(rule);
   }
   void atEnd() {
-    if (next_ < words_.size()) fail(fmt::format("{} is one word too many", shown()));
+    if (next_ >= words_.size()) return;
+    breaksName = bare_ && isNoNumber();
+    fail(fmt::format("{} is one word too many", shown()));
   }
   std::optional<std::string> fault;
-  bool bare = false;  ///< a name stands without quotes
+  /// A word stands behind a name without quotes where a number or nothing may: the name's next one, likely.
+  bool breaksName = false;
 
  private:
   bool more(const char* what) {
     if (!fault && next_ >= words_.size()) fail(fmt::format("{} is missing", what));
     return !fault;
+  }
+  bool isNoNumber() const {
+    const Word& word = words_[next_];
+    return !word.isQuoted && !word.text.empty() &&
+           std::string_view("+-.0123456789").find(word.text[0]) == std::string_view::npos;
   }
   std::string shown() const {
     const Word& word = words_[next_];
@@ -280,6 +290,7 @@ class Reader {
 
   const std::vector<Word>& words_;
   std::size_t next_;
+  bool bare_ = false;  // the word before is a name without quotes
 };
 
 // Words of a line up to a comment; an error's text where it is malformed.
@@ -375,8 +386,7 @@ Result<std::vector<Edit>> parseJournal(std::string_view text, const std::string&
     if (reader.fault)
       return badInput(fmt::format("{}{}: {}; write {}{}", where, operationName(*operation), *reader.fault,
                                   grammarOf(*operation),
-                                  reader.bare ? ", names of several words in double quotes (\"aortic arch\")"
-                                              : ""));
+                                  reader.breaksName ? ", names of several words in double quotes" : ""));
     edits.push_back({std::move(*operation), name, number});
   }
   return edits;

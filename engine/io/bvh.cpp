@@ -343,7 +343,8 @@ Motion inOrder(Motion motion) {
   if (!units.one()) warn(describeUnits(units));
   motion = inOneUnit(std::move(motion), units);
   if (const auto leaps = leapsOf(motion, rig.parts.of); !leaps.empty())
-    warn(std::to_string(leaps.size()) + " of its frames go on from the one before as no person does, the first is frame " +
+    warn(std::to_string(leaps.size()) +
+         " of its frames go on from the one before as no person does, the first is frame " +
          std::to_string(leaps.front()) +
          ": a tracker lost its person there, or another pose was put in front; mend them in the program that "
          "recorded them, or choose frames without them (--frames FIRST:LAST)");

@@ -110,8 +110,8 @@ Clip readClip(const Asset& asset, const Model::Animation& animation, const std::
   return clip;
 }
 
-// Some exporters write an animation for each joint: together they are what the person does. Those of which each
-// moves one joint, no two the same, and all of them most joints.
+// Some exporters write an animation for each joint: together they are what the person does. Those of which
+// each moves one joint, no two the same, and all of them most joints.
 bool areOneMotion(std::span<const Clip> clips, std::size_t joints) {
   std::set<std::uint32_t> moved;
   for (const Clip& clip : clips)

@@ -81,7 +81,8 @@ Numbers arrayOf(XmlFile& file, const XMLElement& piece, const char* parent, cons
 void addCells(XmlFile& file, const XMLElement& piece, std::size_t firstPoint, std::size_t count,
               const Amounts& most, Cells& cells, std::vector<double>& types) {
   const Numbers corners = arrayOf(file, piece, "Cells", "connectivity"),
-                ends = arrayOf(file, piece, "Cells", "offsets"), told = arrayOf(file, piece, "Cells", "types");
+                ends = arrayOf(file, piece, "Cells", "offsets"),
+                told = arrayOf(file, piece, "Cells", "types");
   const std::size_t firstCorner = cells.points.size();
   Amounts::check(std::string(kPlace) + "/Cells/types", "cells",
                  cells.size() + std::max(told.size(), ends.size()), most.lines);

@@ -187,6 +187,33 @@ TEST_CASE("a stent beside its vessel is left out with the reason, and one alone 
   CHECK(meant.json()["elements"][0]["status"] == "ok");
 }
 
+TEST_CASE("vessels without a body are drawn, checked and exported; nothing moves them") {
+  const Files files;
+  const auto one = files.write("far.obj", object("artery", tube(), 1, {5, 1, 0})),
+             other = files.write("next.obj", object("vein", tube(), 1, {5.02f, 1, 0})),
+             net = files.path("n.vasa");
+  REQUIRE(runProgram({"convert", one, "--unit", "m", "-o", net}).exit == 0);
+  const auto drawn = runProgram({"render", net, "--size", "64x64", "-o", files.path("a.PNG")});
+  CHECK_MESSAGE(drawn.exit == 0, drawn.err);
+  const auto lines = runProgram({"export", net, "--network", other, "-o", files.path("A.VTP"), "--json"});
+  REQUIRE_MESSAGE(lines.exit == 0, lines.err);
+  CHECK(lines.json()["vessels"] == 2);
+  CHECK(runProgram({"check", net}).exit == 0);
+  const auto moved = runProgram({"render", net, "--clip", "walk", "-o", files.path("b.png")});
+  CHECK(moved.exit == 2);
+  CHECK_MESSAGE(holds(moved.err, "vessels alone do not move; add --body"), moved.err);
+  const auto within = runProgram({"check", net, "--body", humanBody().string()});
+  CHECK(within.exit == 3);
+  CHECK_MESSAGE(holds(within.err, "vasa render FILE.vasa draws them without a body"), within.err);
+}
+
+TEST_CASE("a folder in a network's place is told before anything is read") {
+  const Files files;
+  const auto outcome = runProgram({"convert", "nothing.obj", "-o", files.folder.path().string()});
+  CHECK(outcome.exit == 6);
+  CHECK_MESSAGE(holds(outcome.err, "is a folder; name a file in it"), outcome.err);
+}
+
 TEST_CASE("vessels that lie kilometres away are refused, not rounded") {
   const Files files;
   const auto far = files.write("far.obj", object("aorta", tube(), 1, vec3(5000, 0, 0)));

@@ -85,6 +85,13 @@ TEST_CASE("what is wrong in a journal is told with its line and how it is writte
   CHECK(faultOf("occlude \"\" 1") == "f.vedit:1: occlude: V must not be empty; write occlude V s");
   CHECK(faultOf("occlude v 1.5") ==
         "f.vedit:1: occlude: s must be a number from 0 to 1, not '1.5'; write occlude V s");
+  // Typographic quotes are none: a word processor makes them.
+  for (const char* bare : {"left iliac artery", "\u201cleft iliac artery\u201d", "'left iliac artery'"})
+    CHECK(
+        faultOf(std::string("occlude ") + bare + " 0.5") ==
+        "f.vedit:1: occlude: s must be a number from 0 to 1, not 'iliac'; write occlude V s, names of several "
+        "words in double quotes");
+  CHECK(faultOf("delete left iliac artery").ends_with("words in double quotes"));
   CHECK(faultOf("occlude v nan").find("not 'nan'") != std::string::npos);
   CHECK(faultOf("occlude v \"0.5\"").find("not \"0.5\"") != std::string::npos);
   CHECK(faultOf("occlude v 0.5 0.6") == "f.vedit:1: occlude: '0.6' is one word too many; write occlude V s");

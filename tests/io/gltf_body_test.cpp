@@ -73,6 +73,26 @@ TEST_CASE("clips of one name can each be chosen") {
   CHECK(body.clips[2].name == body.clips[0].name + " 3");
 }
 
+TEST_CASE("animations of which each moves one joint are one clip, where they move most of them") {
+  GltfBuilder file = bodyFile();
+  const nlohmann::json knee = file.document["animations"][0];
+  nlohmann::json hip = knee;
+  hip["name"] = "bend of hip";
+  hip["channels"][0]["target"]["node"] = 0;
+  file.document["animations"] = {knee, hip};
+  const Body body = bodyOf(file);
+  REQUIRE(body.clips.size() == 1);
+  CHECK(body.clips[0].name == "bend");
+  CHECK(body.clips[0].frameCount() == 3);
+  CHECK(body.clips[0].framesPerSecond == 10);
+  REQUIRE(body.clips[0].tracks.size() == 2);
+  CHECK(body.clips[0].tracks[0].joint == JointId{0});
+  // Two that move the same joint are two.
+  hip["channels"][0]["target"]["node"] = 1;
+  file.document["animations"] = {knee, hip};
+  CHECK(bodyOf(file).clips.size() == 2);
+}
+
 TEST_CASE("joints of one name can each be told apart") {
   GltfBuilder file = bodyFile();
   for (auto& node : file.document["nodes"]) node["name"] = "Bone";

@@ -243,6 +243,21 @@ TEST_CASE("grids of lines are centre lines, with what the file tells of each cel
   }
 }
 
+TEST_CASE("grids in several pieces are one") {
+  std::string text = grid(true, "0 3,1 4 5", "3 4", "1 2");
+  const std::size_t from = text.find("<Piece"), size = text.find("</UnstructuredGrid>") - from;
+  std::string more = text.substr(from, size), without = more;
+  without.replace(without.find("\"Radius\""), 8, "\"Region\"");
+  const auto read = parseVtkLines(bytesOf(text.insert(from, more)), "a.vtu");
+  if (!read.ok()) FAIL(read.error().message);
+  REQUIRE(read->points.size() == 12);
+  REQUIRE(read->lines.size() == 4);
+  CHECK(read->lines[3] == std::vector<std::uint32_t>{7, 10, 11});
+  CHECK(read->points[10] == read->points[4]);
+  // What one piece does not tell, the file does not.
+  expectVtkFault(grid(true, "0 3,1 4 5", "3 4", "1 2").insert(from, without), "has no array of radii");
+}
+
 TEST_CASE("grids of faces are surfaces; pixels go round, solids are refused with what to do") {
   const TemporaryFolder folder;
   for (const bool xml : {false, true}) {

@@ -178,7 +178,29 @@ TEST_CASE("an empty scene is the default one") {
   CHECK(scene->camera.view == "front");
 }
 
+TEST_CASE("scenes that people wrote: comments, and folders as on Windows") {
+  test::TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "my nets");
+  REQUIRE(writeFileAtomically(folder.path() / "my nets" / "a.vasa", std::string("a")).ok());
+  REQUIRE(writeFileAtomically(folder.path() / "b\\c.vasa", std::string("b")).ok());
+  const auto scene = parseScene(R"({ // mine
+    /* two of them */ "networks": ["my nets\\a.vasa", "b\\c.vasa"] })",
+                                folder.path(), "x.json");
+  if (!scene.ok()) FAIL(scene.error().message);
+  CHECK(scene->networks == std::vector{folder.path() / "my nets/a.vasa", folder.path() / "b\\c.vasa"});
+}
+
 TEST_CASE("each fault is told with its place") {
+  CHECK(messageOf(R"({"clip": "walk", "look": {"skin": true}, "clip": "run"})") ==
+        "x.json: /clip is there twice; leave one of them out");
+  CHECK(parseScene(R"({"views": {"1": {"position": [0, 0, 1], "target": [0, 0, 0]},
+                                 "2": {"position": [0, 0, 1], "target": [0, 0, 0]}}})",
+                   "", "x.json")
+            .ok());
+  const std::string trailing = messageOf(R"({"networks": ["a.vasa",]})");
+  CHECK_MESSAGE(trailing.starts_with("x.json: is not valid JSON: parse error at line 1, column 24"),
+                trailing);
+  CHECK_MESSAGE(trailing.ends_with("commas between two things and not behind the last"), trailing);
   CHECK(messageOf("{").find("x.json: is not valid JSON") == 0);
   CHECK(messageOf("[1]") == "x.json: / must be an object");
   CHECK(
