@@ -262,7 +262,7 @@ class Reader {
     if (!holds) fail(rule);
   }
   void atEnd() {
-    if (next_ >= words_.size()) return;
+    if (fault || next_ >= words_.size()) return;
     breaksName = bare_ && isNoNumber();
     fail(fmt::format("{} is one word too many", shown()));
   }

@@ -7,6 +7,7 @@
 #include <set>
 #include <span>
 
+#include "body/humanoid.h"
 #include "core/log.h"
 #include "io/gltf_accessor.h"
 #include "io/gltf_check.h"
@@ -17,7 +18,7 @@ namespace {
 
 // Above one for four bytes of the file, which is what a key has at least.
 constexpr std::size_t kFreeKeys = std::size_t(1) << 20;
-constexpr double kMaximumFrames = 1e6;  // of a clip: nine hours at 30 a second
+constexpr double kMaximumFrames = 1e6;    // of a clip: nine hours at 30 a second
 
 std::vector<float> storedFloats(const Asset& asset, int accessor) {
   if (!isStored(asset, accessor))
@@ -116,7 +117,7 @@ bool areOneMotion(std::span<const Clip> clips, std::size_t joints) {
   std::set<std::uint32_t> moved;
   for (const Clip& clip : clips)
     if (clip.tracks.size() != 1 || !moved.insert(clip.tracks.front().joint.value).second) return false;
-  return clips.size() > 1 && 2 * clips.size() > joints;
+  return clips.size() >= std::size_t(kHumanoidKeys) && 2 * clips.size() > joints;
 }
 
 Clip together(std::span<Clip> clips) {

@@ -73,24 +73,32 @@ TEST_CASE("clips of one name can each be chosen") {
   CHECK(body.clips[2].name == body.clips[0].name + " 3");
 }
 
-TEST_CASE("animations of which each moves one joint are one clip, where they move most of them") {
+TEST_CASE("animations of which each moves one joint are one clip, where they move most of a person") {
   GltfBuilder file = bodyFile();
-  const nlohmann::json knee = file.document["animations"][0];
-  nlohmann::json hip = knee;
-  hip["name"] = "bend of hip";
-  hip["channels"][0]["target"]["node"] = 0;
-  file.document["animations"] = {knee, hip};
+  file.document["skins"][0].erase("inverseBindMatrices");
+  const nlohmann::json first = file.document["animations"][0];
+  std::vector<nlohmann::json> each;
+  for (int joint = 3; joint < 17; ++joint) {  // a chain below the knee
+    file.document["nodes"][std::size_t(joint == 3 ? 1 : joint - 1)]["children"] = {joint};
+    file.add("nodes", {{"translation", {0, -0.1, 0}}});
+    file.document["skins"][0]["joints"].push_back(joint);
+    nlohmann::json own = first;
+    own["name"] = "bend of " + std::to_string(joint);
+    own["channels"][0]["target"]["node"] = joint;
+    each.push_back(own);
+  }
+  file.document["animations"] = each;
   const Body body = bodyOf(file);
   REQUIRE(body.clips.size() == 1);
-  CHECK(body.clips[0].name == "bend");
+  CHECK(body.clips[0].name == "bend of 3");
   CHECK(body.clips[0].frameCount() == 3);
   CHECK(body.clips[0].framesPerSecond == 10);
-  REQUIRE(body.clips[0].tracks.size() == 2);
-  CHECK(body.clips[0].tracks[0].joint == JointId{0});
-  // Two that move the same joint are two.
-  hip["channels"][0]["target"]["node"] = 1;
-  file.document["animations"] = {knee, hip};
-  CHECK(bodyOf(file).clips.size() == 2);
+  REQUIRE(body.clips[0].tracks.size() == 14);
+  CHECK(body.clips[0].tracks[0].joint == JointId{2});
+  // Where two move the same joint they are not meant together.
+  each.back()["channels"][0]["target"]["node"] = 3;
+  file.document["animations"] = each;
+  CHECK(bodyOf(file).clips.size() == 14);
 }
 
 TEST_CASE("joints of one name can each be told apart") {
