@@ -18,7 +18,7 @@ namespace {
 
 // Above one for four bytes of the file, which is what a key has at least.
 constexpr std::size_t kFreeKeys = std::size_t(1) << 20;
-constexpr double kMaximumFrames = 1e6;    // of a clip: nine hours at 30 a second
+constexpr double kMaximumFrames = 1e6;  // of a clip: nine hours at 30 a second
 
 std::vector<float> storedFloats(const Asset& asset, int accessor) {
   if (!isStored(asset, accessor))
