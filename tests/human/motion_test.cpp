@@ -83,7 +83,9 @@ TEST_CASE("no motion brings a vessel's middle out of the skin by more than 2 mm,
       const std::vector<vec4> samples = samplesOf(network, posed, &owners);
       std::vector<float> beyond(samples.size(), 0);
       parallelFor(samples.size(), 64, [&](std::size_t i) {
-        if (const auto place = solid.at(vec3(samples[i]), 0.1f)) beyond[i] = place->distance;
+        const vec3 p(samples[i]);  // nearly all are inside, where the way to the skin says nothing
+        if (solid.winding(p) > 0) return;
+        if (const auto place = solid.at(p, 0.1f)) beyond[i] = place->distance;
       });
       for (std::size_t i = 0; i < samples.size(); ++i)
         if (beyond[i] > kAllowed && beyond[i] > outside[owners[i]].depth)
