@@ -2,14 +2,12 @@
 
 #include "scene/frame.h"
 #include "support/real_scene.h"
-#include "support/shared_data.h"
 
 namespace vasa::test {
 
 Result<RealPoses> realPoses(const std::filesystem::path& data, const std::vector<std::string>& clips,
                             int steps) {
-  const TemporaryFolder folder;
-  const Result<Scene> scene = realScene(data, folder.path());
+  const Result<Scene> scene = realScene(data);
   if (!scene) return scene.error();
   FrameMaker maker(*scene);
   RealPoses result{scene->network, {}};

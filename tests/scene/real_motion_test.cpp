@@ -10,8 +10,7 @@ using namespace vasa;
 
 TEST_CASE("a real body's vessels part in its motions, none passes through another, and few stay in bone") {
   VASA_REQUIRE_SHARED_DATA(data);
-  const test::TemporaryFolder folder;
-  const auto scene = test::realScene(data, folder.path());
+  const auto scene = test::realScene(data);
   REQUIRE(scene.ok());
   CHECK(Interference(scene->network).restPairCount() <=
         39);  // a hundredth of those that overlap in the source

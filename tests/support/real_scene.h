@@ -5,7 +5,8 @@
 
 namespace vasa::test {
 
-/// The real body with its arteries and veins, converted anew. @param folder  for the network's file
-Result<Scene> realScene(const std::filesystem::path& data, const std::filesystem::path& folder);
+/// The real body with its arteries and veins. Converting them takes half a minute: what one test program
+/// made, with this very engine of these very files, serves the next.
+Result<Scene> realScene(const std::filesystem::path& data);
 
 }  // namespace vasa::test
