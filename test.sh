@@ -183,6 +183,8 @@ if [ ${#targets[@]} -gt 0 ]; then
   ctest --preset "$preset" -j2 -R "$pattern" "$@"
 else
   cmake --build --preset "$preset"
+  # The driver compiles its shaders once for all tests, also for those with a cache of their own.
+  export MESA_SHADER_CACHE_DIR=$PWD/build/$preset/driver_shaders
   export MALLOC_PERTURB_=165  # memory that nobody has written to is not zero by chance, a driver's neither
   ctest --preset "$preset" -j2 "$@"
 fi
