@@ -51,7 +51,7 @@ ProfileSetting settingOf(const PaperStudy& study, bool cull) {
                 return study.camera.at(study.scene, maker.pose(), maker.points());
               },
           .avoid = true,
-          .frames = study.quick ? 6u : 40u};
+          .frames = study.quick ? 2u : 40u};
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ struct Poses {
 };
 
 Poses makePoses(const PaperStudy& study) {
-  const std::uint32_t count = study.quick ? 3 : 9;
+  const std::uint32_t count = study.quick ? 1 : 9;
   Poses poses{NetworkTubes(study.scene.network), {}, {}};
   const auto shape = [&](std::span<const vec4> points) {
     std::vector<Bezier> tubes(poses.layout.count());
