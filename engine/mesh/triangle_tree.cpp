@@ -11,6 +11,7 @@ namespace vasa {
 namespace {
 
 constexpr std::uint32_t kLeafSize = 4;
+constexpr float kSurelyFarther = 1.0001f;  // whatever rounding does to a box's distance and a triangle's
 
 // Whether the half line enters the box (slabs; a direction's zeros give infinities, which compare rightly).
 bool enters(const Aabb& box, vec3 from, vec3 inverse) {
@@ -79,19 +80,27 @@ TriangleTree::Nearest TriangleTree::nearest(vec3 p, float within) const {
   Nearest best;
   best.distance = within;
   if (nodes_.empty()) return best;
-  std::uint32_t stack[64];
+  struct Open {
+    std::uint32_t node;
+    float distance;  // of its box
+  };
+  Open stack[64];
   int depth = 0;
-  stack[depth++] = 0;
+  stack[depth++] = {0, nodes_.front().box.distance(p)};
   while (depth > 0) {
-    const Node& node = nodes_[stack[--depth]];
-    if (node.box.distance(p) >= best.distance) continue;
+    const Open open = stack[--depth];
+    if (open.distance >= best.distance) continue;
+    const Node& node = nodes_[open.node];
     if (node.count == 0) {
-      const bool leftNearer = nodes_[node.first].box.distance(p) <= nodes_[node.first + 1].box.distance(p);
-      stack[depth++] = node.first + (leftNearer ? 1 : 0);
-      stack[depth++] = node.first + (leftNearer ? 0 : 1);
+      const Open left{node.first, nodes_[node.first].box.distance(p)};
+      const Open right{node.first + 1, nodes_[node.first + 1].box.distance(p)};
+      const bool leftNearer = left.distance <= right.distance;
+      stack[depth++] = leftNearer ? right : left;
+      stack[depth++] = leftNearer ? left : right;
       continue;
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      if (boxes_[order_[i]].distance(p) > kSurelyFarther * best.distance) continue;
       const uvec3& t = mesh_.triangles[order_[i]];
       const vec3 q =
           closestOnTriangle(p, mesh_.positions[t.x], mesh_.positions[t.y], mesh_.positions[t.z]).point;
