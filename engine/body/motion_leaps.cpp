@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "body/humanoid.h"
 #include "body/rest_stance.h"
 #include "core/ids.h"
 
@@ -21,15 +22,11 @@ std::vector<std::uint32_t> leapsOf(const Motion& motion, std::span<const std::st
   if (stance.hips() == kNone || motion.frameCount == 0) return {};
   const float leg = stance.legLength(motionPose(motion, 0));
   std::vector<std::pair<std::uint32_t, std::uint32_t>> bones;
-  const auto numberOf = [&](const std::string& part) {
-    for (std::uint32_t j = 0; j < parts.size(); ++j)
-      if (parts[j] == part) return j;
-    return kNone;
-  };
   for (const std::string side : kBothSides)
     for (const auto& [from, to] : {std::pair("UpperArm", "LowerArm"), std::pair("LowerArm", "Hand"),
                                    std::pair("UpperLeg", "LowerLeg"), std::pair("LowerLeg", "Foot")})
-      if (const std::uint32_t a = numberOf(side + from), b = numberOf(side + to); a != kNone && b != kNone)
+      if (const std::uint32_t a = partNamed(parts, side + from), b = partNamed(parts, side + to);
+          a != kNone && b != kNone)
         bones.emplace_back(a, b);
   const float farthest = kFastest * leg / motion.framesPerSecond;
   std::vector<std::uint32_t> leaps;
