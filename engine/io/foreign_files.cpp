@@ -6,6 +6,7 @@
 #include "core/atomic_file.h"
 #include "core/letters.h"
 #include "io/markups.h"
+#include "io/swc.h"
 #include "io/vtk_rule.h"
 #include "io/vtp.h"
 #include "io/words.h"
@@ -78,6 +79,27 @@ std::string remedyOf(const std::string& extension, FileUse use) {
   return {};
 }
 
+// "# units: inches": the word must be the line's last, as "1 unit = 213 mm" tells something else.
+double unitOfComment(std::string_view line) {
+  constexpr std::pair<std::string_view, double> kWords[] = {
+      {" m meter meters metre metres ", 1},
+      {" cm centimeter centimeters centimetre centimetres ", 0.01},
+      {" mm millimeter millimeters millimetre millimetres ", 0.001},
+      {" in inch inches ", 0.0254},
+      {" um micron microns micrometer micrometers micrometre micrometres ", 1e-6}};
+  const std::size_t at = line.find("unit");
+  if (!line.starts_with('#') || at == line.npos) return 0;
+  line.remove_prefix(at + 4);
+  if (line.starts_with('s')) line.remove_prefix(1);
+  const std::string_view sign = line.substr(std::min(line.find_first_not_of(" \t"), line.size()));
+  if (!sign.starts_with(':') && !sign.starts_with('=')) return 0;
+  const std::string word = ' ' + std::string(nextWord(line, " \t\r:=")) + ' ';
+  if (!nextWord(line).empty()) return 0;
+  for (const auto& [words, metres] : kWords)
+    if (words.find(word) != words.npos) return metres;
+  return 0;
+}
+
 }  // namespace
 
 std::string extensionOf(const std::filesystem::path& path) { return lowerCase(path.extension().string()); }
@@ -125,6 +147,10 @@ ToldFrame toldFrame(const std::filesystem::path& path) {
   ToldFrame told;
   if (says("uses centimeters as units") || says("UNITS=cm")) told.metresPerUnit = 0.01;
   if (says("UNITS=mm")) told.metresPerUnit = 0.001;
+  if (const std::string extension = extensionOf(path); extension == ".obj" || extension == ".swc")
+    for (std::string_view rest = head; !rest.empty() && told.metresPerUnit == 0;)
+      told.metresPerUnit = unitOfComment(lowerCase(nextLine(rest)));
+  if (told.metresPerUnit == 0 && extensionOf(path) == ".swc") told.metresPerUnit = swcUnit(head);
   // .vtp files have the axes as data, packed as all others are.
   std::string space;
   if (says("Name=\"SPACE\""))

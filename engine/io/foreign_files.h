@@ -17,7 +17,8 @@ bool isGltfFile(const std::filesystem::path& path);
 /// What other programs wrote about a file into its head.
 struct ToldFrame {
   std::optional<ImportFrame::Up> up;  ///< 3D Slicer's "SPACE=LPS"
-  double metresPerUnit = 0;           ///< Maya's "uses centimeters as units", Magics' "UNITS=mm"; 0: not told
+  double metresPerUnit = 0;           ///< Maya's "uses centimeters as units", Magics' "UNITS=mm", a comment
+                                      ///< "units: inches", a column "x [cm]"; 0: not told
 };
 ToldFrame toldFrame(const std::filesystem::path& path);
 

@@ -37,6 +37,15 @@ constexpr double metresOfUnit(std::string_view name) {
   return 0;
 }
 
+/// How people call a unit of so many metres.
+constexpr std::string_view nameOfUnit(double metres) {
+  return metres == 1       ? "metres"
+         : metres == 0.01  ? "centimetres"
+         : metres == 0.001 ? "millimetres"
+         : metres < 0.001  ? "micrometres"
+                           : "inches";
+}
+
 /// Coordinates beyond this many metres are taken for a wrong unit or a damaged file.
 constexpr double kLargestImportedCoordinate = 1e6;
 

@@ -37,6 +37,48 @@ std::string_view nextCell(std::string_view& line, char mark) {
   return csv::trimmed(cell);
 }
 
+char markOf(std::string_view line) { return line.find(';') != line.npos ? ';' : ','; }
+bool isTable(std::string_view line, char mark) { return std::ranges::count(line, mark) >= 6; }
+
+std::string withPoint(std::string_view number) {
+  std::string text(number);
+  if (const auto comma = text.find(','); comma == text.rfind(',') && text.find('.') == text.npos)
+    std::ranges::replace(text, ',', '.');
+  return text;
+}
+
+struct SwcHeading {
+  std::string name;   // in small letters
+  double metres = 0;  // a unit that stands behind it, else 0
+};
+
+SwcHeading swcHeading(std::string_view cell) {
+  std::string text = lowerCase(cell);
+  std::erase(text, '"');
+  std::string_view whole = csv::trimmed(text);
+  const std::size_t stop = std::min(whole.find_first_of(" \t[(_"), whole.size());
+  std::string_view unit = whole.substr(stop);
+  unit.remove_prefix(std::min(unit.find_first_not_of(" \t[(_"), unit.size()));
+  unit = unit.substr(0, unit.find_first_of(" \t])"));
+  const double metres = metresOfUnit(unit);
+  return {std::string(metres > 0 ? whole.substr(0, stop) : whole), metres};
+}
+
+std::vector<SwcHeading> swcHeadings(std::string_view line) {
+  std::vector<SwcHeading> headings;
+  if (const char mark = markOf(line); isTable(line, mark)) {
+    while (!line.empty()) headings.push_back(swcHeading(nextCell(line, mark)));
+    return headings;
+  }
+  for (auto word = nextWord(line, " \t\r,;"); !word.empty(); word = nextWord(line, " \t\r,;")) {
+    if (headings.empty() || (word[0] != '[' && word[0] != '('))
+      headings.push_back(swcHeading(word));
+    else
+      headings.back() = swcHeading(headings.back().name + std::string(word));
+  }
+  return headings;
+}
+
 struct Row {
   SwcSample sample;
   std::int64_t parentId = -1;
@@ -79,14 +121,10 @@ class SwcReader {
         std::ranges::count_if(words, [&](const std::string& word) { return parseNumber(word, number); });
     return !words.empty() && std::isalpha(static_cast<unsigned char>(words[0][0])) != 0 && numbers < 5;
   }
+  // A unit behind a name ("x [cm]", "radius_mm") is none of it.
   static std::vector<std::string> wordsOfHeading(std::string_view text) {
     std::vector<std::string> words;
-    std::string spaced(text);
-    std::ranges::replace_if(
-        spaced, [](char c) { return isMark(c) || c == '"'; }, ' ');
-    std::string_view rest = spaced;
-    for (std::string_view word = nextWord(rest); !word.empty(); word = nextWord(rest))
-      words.push_back(lowerCase(word));
+    for (const SwcHeading& heading : swcHeadings(text)) words.push_back(heading.name);
     return words;
   }
   // Columns are read by their order: names that tell of another one are refused. Of a comment, which may be
@@ -109,6 +147,12 @@ class SwcReader {
                               "; order the columns: " + kLine);
     if (std::ranges::any_of(words, [](const std::string& word) { return word.starts_with("diam"); }))
       return fail(line, std::string("gives diameters; write radii: ") + kLine);
+    double unit = 0;
+    for (const SwcHeading& heading : swcHeadings(text)) {
+      if (unit > 0 && heading.metres > 0 && heading.metres != unit)
+        return fail(line, "its columns are in different units; write all lengths in one");
+      if (heading.metres > 0) unit = heading.metres;
+    }
     return {};
   }
 
@@ -119,9 +163,9 @@ class SwcReader {
       text = text.substr(0, mark);
     }
     // Tables of spreadsheets divide columns by semicolons, or else by commas; other commas are decimal ones,
-    // which are refused.
-    const char mark = text.find(';') != text.npos ? ';' : ',';
-    const bool table = std::ranges::count(text, mark) >= 6;
+    // which are refused unless semicolons stand between the columns.
+    const char mark = markOf(text);
+    const bool table = isTable(text, mark);
     if (text.find_first_not_of(" \t\r,;") == text.npos) return {};
     if (rows_.empty() && isHeading(text)) return checkHeading(text, line, false);
     double value[7];
@@ -131,7 +175,7 @@ class SwcReader {
         return fail(line, std::string("the ") + kColumns[column] + " is missing; a line is: " + kLine);
       if (column == 5 && sameLetters(word, "nan"))
         value[column] = 0;  // not known
-      else if (!parseNumber(word, value[column]))
+      else if (!parseNumber(table && mark == ';' ? withPoint(word) : std::string(word), value[column]))
         return fail(line, std::string("the ") + kColumns[column] + " must be a finite number, found '" +
                               std::string(word.substr(0, 40)) + "'; a line is: " + kLine);
     }
@@ -240,6 +284,18 @@ class SwcReader {
 };
 
 }  // namespace
+
+double swcUnit(std::string_view head) {
+  while (!head.empty()) {
+    std::string_view line = nextLine(head);
+    if (const auto mark = line.find('#'); mark != line.npos) line.remove_prefix(mark + 1);
+    const std::vector<SwcHeading> headings = swcHeadings(line);
+    if (const auto x = std::ranges::find(headings, "x", &SwcHeading::name);
+        x != headings.end() && x->metres > 0)
+      return x->metres;
+  }
+  return 0;
+}
 
 Result<std::vector<SwcSample>> parseSwc(std::string_view text, const std::string& name,
                                         const ImportFrame& frame) {

@@ -19,18 +19,22 @@ struct SwcSample {
   static constexpr std::uint32_t kRoot = 0xffffffffu;
 };
 
-/// The samples of an SWC file in the file's order, a forest. Comments are passed over, as are columns after
-/// the seventh and lines of words before the first sample, unless they name the columns in another order. A
-/// sample whose parent is itself is a root. A radius of zero (or nan), which tracing programs write where
-/// they could not measure, becomes that of the nearest sample towards the root that has one, or else of the
-/// first child, with a warning. Fails with badInput, naming file and line: a line without seven numbers, a
-/// number that is not finite, an id that is used twice, a parent that does not exist, a negative radius,
-/// parents in a circle, no samples.
+/// The samples of an SWC file in the file's order, a forest. Between semicolons commas are decimal points.
+/// Comments are passed over, as are columns after the seventh and lines of words before the first sample,
+/// unless they name the columns in another order. A sample whose parent is itself is a root. A radius of zero
+/// (or nan), which tracing programs write where they could not measure, becomes that of the nearest sample
+/// towards the root that has one, or else of the first child, with a warning. Fails with badInput, naming
+/// file and line: a line without seven numbers, a number that is not finite, an id that is used twice, a
+/// parent that does not exist, a negative radius, parents in a circle, no samples.
 Result<std::vector<SwcSample>> readSwc(const std::filesystem::path& path, const ImportFrame& frame = {});
 
 /// The same from text. @param name  for messages
 Result<std::vector<SwcSample>> parseSwc(std::string_view text, const std::string& name,
                                         const ImportFrame& frame = {});
+
+/// The unit of the columns [m] where the names of columns say it ("x [cm]", "x_um"), else 0.
+/// @param head  the file's beginning
+double swcUnit(std::string_view head);
 
 /// The text of a file, read back as the same samples.
 std::string encodeSwc(std::span<const SwcSample> samples, const ImportFrame& frame = {});

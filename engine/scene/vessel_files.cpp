@@ -153,7 +153,7 @@ Aabb boundsOf(const Centrelines& lines) {
 
 LikelyUnit likelyUnit(const Aabb& bounds, const std::filesystem::path& path) {
   if (const double told = toldFrame(path).metresPerUnit; told > 0 && bounds.size() * told <= kTallestBody)
-    return {told, told < 0.01 ? "millimetres, as its head says" : "centimetres, as its head says"};
+    return {told, std::string(nameOfUnit(told)) + ", as its head says"};
   if (bounds.size() <= kTallestBody && farthest(bounds) <= kFarthestBody) return {1, {}};
   if (const float high = 1e-3f * bounds.size(); high > kTallestBody)
     return {1e-6, fmt::format("micrometres, as in millimetres they would be {:.0f} m large", high)};

@@ -67,7 +67,14 @@ TEST_CASE(
                  "a.swc:1: gives diameters; write radii");
   CHECK(parseSwc("# diameter x y z of a vessel\n# columns: n T x y z R P\n1 3 0 0 0 2 -1\n", "a.swc").ok());
   expectSwcFault("id type x y z diameter parent\n1 3 0 0 0 2 -1\n", "a.swc:1: gives diameters; write radii");
-  expectSwcFault("1;3;0,5;0;0;2;-1\n", "the x must be a finite number");
+  reads("id;type;x;y;z;radius;parent\r\n1;3;0;0;0;2,5;-1\r\n2;3;0,0;10,0;0;2,5;1\r\n");
+  expectSwcFault("1;3;0,5,1;0;0;2;-1\n", "the x must be a finite number");
+  reads("id,type,x [cm],y [cm],z [cm],radius [cm],parent\n1,3,0,0,0,2,-1\n2,3,0,10,0,2,1\n");
+  reads("# id type x (mm) y (mm) z (mm) radius (mm) parent\n" + rows);
+  expectSwcFault("id,type,x [cm],y [cm],z [cm],radius [mm],parent\n1,3,0,0,0,2,-1\n",
+                 "a.swc:1: its columns are in different units; write all lengths in one");
+  CHECK(swcUnit("Traced by hand\nid;type;x_um;y_um;z_um;radius_um;parent\n") == 1e-6);
+  CHECK(swcUnit("# id type x y z radius parent\n" + rows) == 0);
   expectSwcFault("x1 3 0 0 0 2 -1\n", "a.swc:1: the id must be a finite number, found 'x1'");
 }
 
