@@ -177,7 +177,7 @@ void tellMissing(const Options& options, const CarriedNetwork& carried) {
   for (const std::string& limb : carried.limbsMissing) limbs += (limbs.empty() ? "" : ", ") + limb;
   logWarning(fmt::format(
       "{}: no joint answers to these parts of {}: {}; {} vessels there, '{}' first, are pressed into what is next to "
-      "them; pressed of --json names all: take them out before (vasa edit: delete), or pair joints with --joint-map",
+      "them; pressed of --json names all: take them out before (vasa edit: delete, or cut), or pair joints with --joint-map",
       options.to, options.from, limbs, carried.vesselsPressed.size(),
       visible(carried.vesselsPressed.front())));
 }

@@ -289,7 +289,7 @@ class Carrier {
       std::size_t count = 0;
       for (std::uint32_t i = 0; i < vessel.pointCount; ++i)
         count += missing_[stations[vessel.firstPoint + i].joint.value];
-      if (2 * count > vessel.pointCount) out_.vesselsPressed.push_back(vessel.name);
+      if (4 * count >= vessel.pointCount) out_.vesselsPressed.push_back(vessel.name);
     }
   }
 

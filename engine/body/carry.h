@@ -17,7 +17,7 @@ struct CarriedNetwork {
   std::uint32_t jointsMatched = 0;
   std::vector<std::string> jointsFree;  ///< of the first body: they go with the joint before them
   /// "left leg", "head": of the first body, where no joint of the second answers; and the vessels of which
-  /// most lies there. They are pressed into what is next to it.
+  /// a quarter or more lies there. They are pressed into what is next to it.
   std::vector<std::string> limbsMissing, vesselsPressed;
   float radiusFactor = 1;  ///< all radii were multiplied by this
   /// Points that the skin's shape alone would have left outside, or too near.
