@@ -303,6 +303,8 @@ Result<void> run(const Globals& globals, const Options& options) {
   if (!rays) return rays.error();
   const auto file = chooseScene(options.scene);
   if (!file) return file.error();
+  if (file->body.empty())
+    return Error{Fault::usage, options.scene.scene + ": vessels alone have no poses; add --body FILE.glb"};
   LoadingLine line;
   const auto scene = loadScene(*file, line.told());
   if (!scene) return scene.error();

@@ -1,5 +1,9 @@
 #include "network/merge.h"
 
+#include <algorithm>
+#include <map>
+#include <string_view>
+
 #include "network/builder.h"
 
 namespace vasa {
@@ -32,6 +36,20 @@ Result<Network> mergeNetworks(std::span<const Network> networks) {
   auto merged = builder.build(networks.front().bodyHeight());
   if (!merged || patches.empty()) return merged;
   return withPatches(std::move(*merged), std::move(patches));
+}
+
+std::size_t sharedVessels(const Network& a, const Network& b) {
+  std::multimap<std::string_view, const Vessel*> called;
+  for (const Vessel& vessel : b.vessels()) called.emplace(vessel.name, &vessel);
+  const auto meet = [](vec4 p, vec4 q) { return glm::distance(vec3(p), vec3(q)) < 0.1f * p.w; };
+  return std::size_t(std::ranges::count_if(a.vessels(), [&](const Vessel& vessel) {
+    const auto own = a.pointsOf(vessel);
+    const auto [first, last] = called.equal_range(vessel.name);
+    return std::any_of(first, last, [&](const auto& entry) {
+      const auto other = b.pointsOf(*entry.second);
+      return meet(own.front(), other.front()) && meet(own.back(), other.back());
+    });
+  }));
 }
 
 }  // namespace vasa

@@ -135,6 +135,28 @@ Result<Body> loadBody(const SceneFile& file) {
   return body;
 }
 
+namespace {
+
+// Two vessels in one place press one another to threads, and all of them count as overlapping at rest.
+bool isToldAgain(const Network& network, const std::filesystem::path& path, std::span<const Network> earlier,
+                 std::span<const std::filesystem::path> paths) {
+  const std::size_t count = network.vessels().size();
+  for (std::size_t i = 0; i < earlier.size(); ++i) {
+    const std::size_t shared = sharedVessels(network, earlier[i]);
+    if (shared == 0) continue;
+    if (shared == count) {
+      logWarning(path.string() + ": tells the same vessels as " + paths[i].string() + ", and is left out");
+      return true;
+    }
+    logWarning(path.string() + ": " + std::to_string(shared) + " of its " + std::to_string(count) +
+               " vessels are in " + paths[i].string() +
+               ", too, and lie in one another; give each vessel once");
+  }
+  return false;
+}
+
+}  // namespace
+
 Result<Scene> loadScene(const SceneFile& file, const ReadingProgress& told) {
   StageLog stages;
   const auto tell = [&](const char* what) {
@@ -146,6 +168,7 @@ Result<Scene> loadScene(const SceneFile& file, const ReadingProgress& told) {
   auto body = loadBody(file);
   if (!body) return body.error();
   std::vector<Network> networks;
+  std::vector<std::filesystem::path> paths;
   for (const auto& path : file.networks) {
     tell("reading vessels");
     auto network = readVessels(path, body->height(), told);
@@ -153,11 +176,13 @@ Result<Scene> loadScene(const SceneFile& file, const ReadingProgress& told) {
     if (file.networks.size() > 1 && !file.body.empty())
       if (const auto near = checkNear(*body, network->points(), path.filename().string()); !near)
         return near.error();
+    if (isToldAgain(*network, path, networks, paths)) continue;
     networks.push_back(std::move(*network));
+    paths.push_back(path);
   }
   tell("binding vessels to the body");
   std::string names;
-  for (const auto& path : file.networks) names += (names.empty() ? "" : ", ") + path.filename().string();
+  for (const auto& path : paths) names += (names.empty() ? "" : ", ") + path.filename().string();
   return makeScene(std::move(*body), std::move(networks), file, names);
 }
 

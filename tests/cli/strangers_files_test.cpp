@@ -304,3 +304,40 @@ TEST_CASE(
       holds(late.err, "walk: frame 1200 follows from those before it, of which 1200 are solved first"),
       late.err);
 }
+
+TEST_CASE("names of columns, and comments, tell units; commas between semicolons are decimal points") {
+  const Files files;
+  const auto lengthOf = [&](const std::string& file, std::string& told) {
+    const auto done = runProgram({"convert", file, "--kind", "artery", "-o", files.path("a.vasa"), "--json"});
+    REQUIRE_MESSAGE(done.exit == 0, done.err);
+    told = done.err;
+    return done.json()["summary"]["length_m"].get<double>();
+  };
+  std::string told, table = "\xEF\xBB\xBFid;type;x [cm];y [cm];z [cm];radius [cm];parent\r\n";
+  for (int i = 0; i <= 10; ++i)
+    table += std::to_string(i + 1) + ";10;0,5;" + std::to_string(10 + i) + ",5;0;0,4;" +
+             std::to_string(i > 0 ? i : -1) + "\r\n";
+  CHECK(lengthOf(files.write("table.swc", table), told) == doctest::Approx(0.1));
+  CHECK_MESSAGE(holds(told, "centimetres, as its head says"), told);
+  const auto inches = "# Units: inches\n" + object("aorta", tube(), 1 / 0.0254f);
+  CHECK(lengthOf(files.write("tube.obj", inches), told) == doctest::Approx(0.1).epsilon(0.1));
+  CHECK_MESSAGE(holds(told, "inches, as its head says"), told);
+}
+
+TEST_CASE("vessels that are given twice are told, and left out where they are all") {
+  const Files files;
+  const auto one = files.path("one.vasa"), both = files.path("both.vasa");
+  const auto artery = files.write("artery.obj", object("aorta", tube()));
+  const auto vein = files.write("vein.obj", object("caval vein", tube(), 1, {0.05f, 0, 0}));
+  REQUIRE(runProgram({"convert", artery, "-o", one}).exit == 0);
+  REQUIRE(runProgram({"convert", artery, vein, "-o", both}).exit == 0);
+  const auto again = runProgram({"check", one, "--network", one, "--json"});
+  CHECK(again.exit == 0);
+  CHECK_MESSAGE(holds(again.err, "one.vasa: tells the same vessels as "), again.err);
+  CHECK(again.json()["summary"]["rest_pairs"] == 0);
+  const auto more = runProgram({"check", one, "--network", both});
+  CHECK_MESSAGE(holds(more.err, "both.vasa: 1 of its 2 vessels are in "), more.err);
+  const auto poses = runProgram({"poses", one});
+  CHECK(poses.exit == 2);
+  CHECK_MESSAGE(holds(poses.err, "vessels alone have no poses; add --body FILE.glb"), poses.err);
+}
