@@ -67,9 +67,10 @@ std::uint32_t KinkRelaxer::run(std::span<vec4> points) const {
   static thread_local std::vector<float> shares;  // kept, so that a frame allocates nothing
   for (const Vessel& vessel : network_->vessels()) {
     const auto own = Network::pointsOf(vessel, points);
-    // What share of the way a span is drawn straight: more than at rest, and none yet at kBends. By the bend's
-    // radius, for as a fold closes that shrinks evenly where the bend itself grows without bound. It is asked
-    // once: a fold that is drawn in becomes sharper at first, and to ask again would let it run away.
+    // What share of the way a span is drawn straight: more than at rest, and none yet at kBends. By the
+    // bend's radius, for as a fold closes that shrinks evenly where the bend itself grows without bound. It
+    // is asked once: a fold that is drawn in becomes sharper at first, and to ask again would let it run
+    // away.
     const auto shareOf = [&](std::uint32_t span, float bend) {
       return kShare * std::max(1 - std::max(kBends, atRest_[first + span]) / bend, 0.0f);
     };
