@@ -92,9 +92,7 @@ Result<std::vector<VesselId>> MotionProbe::throughBones(const Network& network, 
   const std::vector<Place> places = halfSpans(network);
   std::vector<char> deep(places.size(), 0);
   const auto visit = [&](std::size_t i, vec3 p, const Solid& bones, std::span<const vec3>) {
-    if (deep[i] || bones.winding(p) <= 0) return;
-    const std::optional<Solid::Place> place = bones.at(p, depth);
-    deep[i] = place && place->distance <= -depth;
+    if (!deep[i]) deep[i] = bones.isDeep(p, depth);  // few places are inside: no tree is built for them
   };
   if (const Result<void> visited = visitPoses(network, places, 1, visit); !visited.ok())
     return visited.error();

@@ -33,8 +33,11 @@ class SkinSheet {
              int steps) const;
 
  private:
+  std::size_t find(std::uint32_t vertex, std::uint32_t neighbour) const;  // in neighbours_
+
   const TriangleMesh& rest_;
   std::vector<std::uint32_t> first_, neighbours_;
+  std::vector<std::uint32_t> edges_;  // the edge's number, which is the same from both its ends
 };
 
 }  // namespace vasa::human

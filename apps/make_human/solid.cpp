@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/closest_point.h"
+
 // The ray runs along +z. Which side of a projected edge a point is on is computed for the edge's ends in a
 // fixed order, so that the two triangles at an edge agree and none or both of their signs change.
 namespace vasa::human {
@@ -11,6 +13,7 @@ namespace {
 constexpr float kCell = 0.008f;
 constexpr float kFarCell = 0.012f, kFarthestTold = 0.03f;  // [m] of the cells that tell at once what is far
 constexpr float kUnknown = -1;
+constexpr float kRounding = 1e-6f;  // [m] more than what rounding takes from a box around a point
 
 double sideOf(const dvec3& a, const dvec3& b, double x, double y) {
   return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
@@ -20,6 +23,13 @@ double sideOf(const dvec3& a, const dvec3& b, double x, double y) {
 bool leftOf(std::uint32_t a, std::uint32_t b, const std::vector<vec3>& positions, double x, double y) {
   if (a < b) return sideOf(dvec3(positions[a]), dvec3(positions[b]), x, y) > 0;
   return !(sideOf(dvec3(positions[b]), dvec3(positions[a]), x, y) > 0);
+}
+
+/// Whether the ray through p misses the box around a triangle: most of a cell's are told so without a
+/// product.
+bool isBeside(vec3 a, vec3 b, vec3 c, vec3 p) {
+  return (p.x < a.x && p.x < b.x && p.x < c.x) || (p.x > a.x && p.x > b.x && p.x > c.x) ||
+         (p.y < a.y && p.y < b.y && p.y < c.y) || (p.y > a.y && p.y > b.y && p.y > c.y);
 }
 
 }  // namespace
@@ -64,6 +74,7 @@ int Solid::winding(vec3 p) const {
   int result = 0;
   for (std::uint32_t k = first_[cell]; k < first_[cell + 1]; ++k) {
     const uvec3 t = mesh_.triangles[triangles_[k]];
+    if (isBeside(mesh_.positions[t.x], mesh_.positions[t.y], mesh_.positions[t.z], p)) continue;
     const bool ab = leftOf(t.x, t.y, mesh_.positions, x, y), bc = leftOf(t.y, t.z, mesh_.positions, x, y),
                ca = leftOf(t.z, t.x, mesh_.positions, x, y);
     if (ab != bc || bc != ca) continue;
@@ -74,6 +85,22 @@ int Solid::winding(vec3 p) const {
     if (z > double(p.z)) result += ab ? 1 : -1;
   }
   return result;
+}
+
+bool Solid::isDeep(vec3 p, float depth) const {
+  if (winding(p) <= 0) return false;
+  const float reach = depth + kRounding;
+  const std::size_t low = column(p.x - reach, p.y - reach), high = column(p.x + reach, p.y + reach);
+  for (std::size_t y = low / columns_; y <= high / columns_; ++y) {
+    const std::size_t row = y * columns_;
+    for (std::uint32_t k = first_[row + low % columns_]; k < first_[row + high % columns_ + 1]; ++k) {
+      const uvec3& t = mesh_.triangles[triangles_[k]];
+      const vec3 &a = mesh_.positions[t.x], &b = mesh_.positions[t.y], &c = mesh_.positions[t.z];
+      if (std::max({a.z, b.z, c.z}) < p.z - reach || std::min({a.z, b.z, c.z}) > p.z + reach) continue;
+      if (glm::distance(p, closestOnTriangle(p, a, b, c).point) < depth) return false;
+    }
+  }
+  return true;
 }
 
 /// True only if p lies outside and farther than `within`: the middle of its coarse cell is farther by more

@@ -28,6 +28,10 @@ class Solid {
   /// How often the surface goes around p: a ray's signed crossings.
   int winding(vec3 p) const;
 
+  /// Whether p lies inside with no triangle nearer than `depth`. It looks through the grid's cells around p
+  /// and plants no tree: for depths of a cell or so, where few places are asked about.
+  bool isDeep(vec3 p, float depth) const;
+
  private:
   std::size_t column(float x, float y) const;
   bool isFar(vec3 p, float within) const;

@@ -1,14 +1,6 @@
 #include "math/closest_point.h"
 
 namespace vasa {
-
-float closestOnSegment(vec3 p, vec3 a, vec3 b) {
-  const vec3 ab = b - a;
-  const float length2 = glm::dot(ab, ab);
-  if (length2 <= 0) return 0;
-  return glm::clamp(glm::dot(p - a, ab) / length2, 0.0f, 1.0f);
-}
-
 namespace {
 
 TrianglePoint closestOnEdges(vec3 p, vec3 a, vec3 b, vec3 c) {

@@ -4,7 +4,12 @@
 namespace vasa {
 
 /// Parameter in [0, 1] of the point on segment ab that is nearest to p; 0 where a == b.
-float closestOnSegment(vec3 p, vec3 a, vec3 b);
+inline float closestOnSegment(vec3 p, vec3 a, vec3 b) {
+  const vec3 ab = b - a;
+  const float length2 = glm::dot(ab, ab);
+  if (length2 <= 0) return 0;
+  return glm::clamp(glm::dot(p - a, ab) / length2, 0.0f, 1.0f);
+}
 
 struct TrianglePoint {
   vec3 point;
