@@ -184,7 +184,8 @@ void PassageSearch::meet(std::uint32_t slot, std::size_t level, std::uint32_t no
     return;
   }
   if (node <= slot) return;
-  const auto [i, j] = orderedPair(order_[slot], order_[node]);
+  const TubePair pair = orderedPair(order_[slot], order_[node]);
+  const std::uint32_t i = pair.i, j = pair.j;
   if (exclusions_->contains(i, j)) return;
   const double straight =
       0.25 * double(leastRadius(before_[i], after_[i]) + leastRadius(before_[j], after_[j]));

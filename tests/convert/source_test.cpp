@@ -250,16 +250,16 @@ TEST_CASE("words written without a mark between them are known, too") {
   for (const char* name : {"liver_hepaticvessel", "lungvessels", "leftrenalartery", "kidney_renalvein",
                            "leftover", "rightmost branch", "cleft", "upright"})
     CHECK_MESSAGE(namesNoVessel(named(name), "scan") == NoVessel::none, name);
-  for (const auto& [name, kind] : {std::pair("leftrenalvein", VesselKind::vein),
-                                   {"hepaticveins", VesselKind::vein},
-                                   {"portalvein", VesselKind::portalVein},
-                                   {"venacavainferior", VesselKind::vein},
-                                   {"coronarysinus", VesselKind::vein},
-                                   {"leftfemoralartery", VesselKind::artery},
-                                   {"DescAo", VesselKind::artery},
-                                   {"LSCA", VesselKind::artery},
-                                   {"MPA", VesselKind::artery}})
-    CHECK_MESSAGE(kindOf(named(name), "scan") == kind, name);
+  for (const auto& each : {std::pair("leftrenalvein", VesselKind::vein),
+                           {"hepaticveins", VesselKind::vein},
+                           {"portalvein", VesselKind::portalVein},
+                           {"venacavainferior", VesselKind::vein},
+                           {"coronarysinus", VesselKind::vein},
+                           {"leftfemoralartery", VesselKind::artery},
+                           {"DescAo", VesselKind::artery},
+                           {"LSCA", VesselKind::artery},
+                           {"MPA", VesselKind::artery}})
+    CHECK_MESSAGE(kindOf(named(each.first), "scan") == each.second, each.first);
 }
 
 TEST_CASE("what lies in vessels is none, whatever it lies in; a vessel that has one is one") {
@@ -267,24 +267,24 @@ TEST_CASE("what lies in vessels is none, whatever it lies in; a vessel that has 
     const char* name;
     NoVessel why;
   };
-  for (const auto& [name, why] : {Case{"coronary stent", NoVessel::device},
-                                  {"LAD_stent.001", NoVessel::device},
-                                  {"stent with thrombus", NoVessel::device},
-                                  {"aneurysm thrombus", NoVessel::finding},
-                                  {"portal vein thrombosis", NoVessel::finding},
-                                  {"aorta calcifications", NoVessel::finding},
-                                  {"aortic valve", NoVessel::heart},
-                                  {"válvula aórtica", NoVessel::heart},
-                                  {"Aortenklappe", NoVessel::heart},
-                                  {"冠動脈ステント", NoVessel::device},
-                                  {"P com stent", NoVessel::device},
-                                  {"aorta com stent", NoVessel::none},
-                                  {"aorta with stent", NoVessel::none},
-                                  {"aorta_post_stent", NoVessel::none},
-                                  {"aneurysm without thrombus", NoVessel::none},
-                                  {"calcified aorta", NoVessel::none},
-                                  {"stented artery", NoVessel::none}})
-    CHECK_MESSAGE(namesNoVessel(named(name), "arteries") == why, name);
+  for (const Case& each : {Case{"coronary stent", NoVessel::device},
+                           {"LAD_stent.001", NoVessel::device},
+                           {"stent with thrombus", NoVessel::device},
+                           {"aneurysm thrombus", NoVessel::finding},
+                           {"portal vein thrombosis", NoVessel::finding},
+                           {"aorta calcifications", NoVessel::finding},
+                           {"aortic valve", NoVessel::heart},
+                           {"válvula aórtica", NoVessel::heart},
+                           {"Aortenklappe", NoVessel::heart},
+                           {"冠動脈ステント", NoVessel::device},
+                           {"P com stent", NoVessel::device},
+                           {"aorta com stent", NoVessel::none},
+                           {"aorta with stent", NoVessel::none},
+                           {"aorta_post_stent", NoVessel::none},
+                           {"aneurysm without thrombus", NoVessel::none},
+                           {"calcified aorta", NoVessel::none},
+                           {"stented artery", NoVessel::none}})
+    CHECK_MESSAGE(namesNoVessel(named(each.name), "arteries") == each.why, each.name);
   CHECK(namesNoVessel(named("stent", "artery"), "scan") == NoVessel::none);  // the file itself says so
 }
 

@@ -55,9 +55,9 @@ void addZigzag(TriangleMesh& mesh, Random& random, int legs, float radius, float
 }  // namespace
 
 TEST_CASE("what strands ask for is cut to what is allowed, the greediest first") {
-  constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
-  CHECK(spanLimit({}, 10) == kNone);
-  CHECK(spanLimit({3, 4, 3}, 10) == kNone);
+  constexpr auto kUnlimited = std::numeric_limits<std::uint32_t>::max();
+  CHECK(spanLimit({}, 10) == kUnlimited);
+  CHECK(spanLimit({3, 4, 3}, 10) == kUnlimited);
   CHECK(spanLimit({3, 100, 3}, 10) == 4);
   CHECK(spanLimit({1, 100, 50}, 11) == 5);
   CHECK(spanLimit({7, 7, 7}, 2) == 1);  // a vessel has one at the least

@@ -51,16 +51,16 @@ TEST_CASE("frame times that are rounded mean whole rates, those of film and NTSC
     REQUIRE(motion.ok());
     return double(motion->framesPerSecond);
   };
-  for (const auto& [seconds, rate] : {std::pair(".0333333", 30.0),
-                                      {".0333", 30.0},
-                                      {".00833", 120.0},
-                                      {".041667", 24.0},
-                                      {".04", 25.0},
-                                      {".0333667", 29.97003},
-                                      {".0417083", 23.97602},
-                                      {".0041667", 240.0},
-                                      {".7", 1 / 0.7}})
-    CHECK_MESSAGE(rateOf(seconds) == doctest::Approx(rate).epsilon(1e-6), seconds);
+  for (const auto& each : {std::pair(".0333333", 30.0),
+                           {".0333", 30.0},
+                           {".00833", 120.0},
+                           {".041667", 24.0},
+                           {".04", 25.0},
+                           {".0333667", 29.97003},
+                           {".0417083", 23.97602},
+                           {".0041667", 240.0},
+                           {".7", 1 / 0.7}})
+    CHECK_MESSAGE(rateOf(each.first) == doctest::Approx(each.second).epsilon(1e-6), each.first);
 }
 
 TEST_CASE("keywords with blanks before their colons") {
