@@ -7,7 +7,7 @@
 // refused as bad input, with the limit named; a file beside a .gltf counts with it, a packed mesh
 // with what it unpacks to (io/gltf_unpack.h). Readers hold to it by
 // having no step that costs more than n log n, and by checking amounts before memory is asked for;
-// tests/fuzz/growth_test.cpp measures both.
+// tests/fuzz/*_growth_test.cpp measure both.
 namespace vasa {
 
 inline constexpr std::size_t kMemoryTimes = 20, kMemoryFree = std::size_t(64) << 20;
