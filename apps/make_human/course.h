@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "collide/network_tubes.h"
 #include "make_human/surroundings.h"
 
 namespace vasa::human {
@@ -26,8 +27,8 @@ struct SettleOptions {
   float fromBone = 0.7e-3f, fromHeart = 0.3e-3f;
   /// Near a fork courses need not be farther apart than this many times the way between them along the
   /// vessels (branches that open by 60 degrees are): what no course could keep to would drift aside for ever.
-  /// Sweeps may overlap there while that way is shorter than two sums of radii (collide/network_tubes.h).
-  float opening = 0.5f;
+  /// Sweeps may overlap there while that way is shorter than kReach sums of radii.
+  float opening = 1 / NetworkTubes::kReach;
   int rounds = 8, stepsPerRound = 30;
 };
 

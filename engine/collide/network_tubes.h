@@ -13,11 +13,13 @@ class NetworkTubes {
     std::uint32_t span;
   };
 
+  static constexpr float kReach = 2;
+
   /// Finds the neighbours at rest: along vessels, across nodes, and from a side branch into its host's spans.
   /// A path counts while it is shorter than `reach` times the sum of the largest radii at its two ends.
   /// Neighbours belong together and are left out of detection, as whole tubes: where a vessel folds over
   /// itself so tightly, that is a kink (network/kinks.h).
-  explicit NetworkTubes(const Network& network, float reach = 2);
+  explicit NetworkTubes(const Network& network, float reach = kReach);
 
   std::uint32_t count() const { return std::uint32_t(addresses_.size()); }
   Address address(std::uint32_t tube) const { return addresses_[tube]; }
