@@ -27,7 +27,7 @@ foreach(header IN LISTS headers)
       set(name "${CMAKE_MATCH_1}(${CMAKE_MATCH_2})")
       # Types of arguments, without their names and values.
       string(REGEX REPLACE "( [A-Za-z0-9_]+)?( = [^,]*)?(,|\\))" "\\3" name "${name}")
-    elseif(definition MATCHES "^ (class|struct|union|enum class) ([A-Za-z0-9]+)")
+    elseif(definition MATCHES "^ (class|struct|union|enum class) ([A-Za-z0-9]+(::[A-Za-z0-9]+)*)")  # Renderer::State is another
       set(name "${CMAKE_MATCH_2}")
     else()
       continue()
