@@ -8,8 +8,7 @@ namespace {
 
 constexpr int kSamples = 8;
 constexpr int kPasses = 2;
-// Of the way to the neighbours' middle, a pass, where the fold has closed. With 0.5 more kinks are left.
-constexpr float kShare = 0.7f;
+constexpr float kShare = 0.5f;  // of the way to the neighbours' middle, a pass
 // R κ from which a span is drawn straight, the more the more it bends: continuous in the pose.
 constexpr float kBends = 0.6f;
 
@@ -68,12 +67,10 @@ std::uint32_t KinkRelaxer::run(std::span<vec4> points) const {
   static thread_local std::vector<float> shares;  // kept, so that a frame allocates nothing
   for (const Vessel& vessel : network_->vessels()) {
     const auto own = Network::pointsOf(vessel, points);
-    // What share of the way a span is drawn straight: more than at rest, and none yet at kBends. By the
-    // bend's radius, for as a fold closes that shrinks evenly where the bend itself grows without bound. It
-    // is asked once: a fold that is drawn in becomes sharper at first, and to ask again would let it run
-    // away.
+    // What share of the way a span is drawn straight: more than at rest, and none yet at kBends. It is asked
+    // once: a fold that is drawn in becomes sharper at first, and to ask again would let it run away.
     const auto shareOf = [&](std::uint32_t span, float bend) {
-      return kShare * std::max(1 - std::max(kBends, atRest_[first + span]) / bend, 0.0f);
+      return kShare * std::clamp(bend - std::max(kBends, atRest_[first + span]), 0.0f, 1.0f);
     };
     shares.clear();
     for (std::uint32_t span = 0; span < vessel.spanCount(); ++span) {

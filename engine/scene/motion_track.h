@@ -14,7 +14,7 @@ struct Scene;
 
 /// Goes up whenever a frame comes out otherwise for the same input. What is kept of frames between runs bears
 /// it.
-constexpr int kMotionEdition = 14;
+constexpr int kMotionEdition = 13;
 
 /// The corrections of a clip's frames, one after the other as far as they were solved: with them a frame
 /// costs no more than its pose, and one process can solve a motion for many. Kept is what moves: 16 bytes for

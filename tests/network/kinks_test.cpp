@@ -18,15 +18,12 @@ Network lineOf(std::uint32_t count, float radius) {
   return test::built(builder);
 }
 
-constexpr float kSharp = 1.88f;  // [rad] more than a right angle
-
-// Bent at its middle, too sharply for its radius unless told otherwise.
-std::vector<vec4> bent(const Network& network, float angle = kSharp) {
+// Bent at its middle by more than a right angle, too sharply for its radius.
+std::vector<vec4> bent(const Network& network) {
   std::vector<vec4> points(network.points().begin(), network.points().end());
   const std::size_t middle = points.size() / 2;
   for (std::size_t k = middle; k < points.size(); ++k)
-    points[k] =
-        points[middle - 1] + 0.01f * float(k - middle + 1) * vec4(std::cos(angle), std::sin(angle), 0, 0);
+    points[k] = points[middle - 1] + vec4(-0.003f, 0.0095f, 0, 0) * float(k - middle + 1);
   return points;
 }
 
@@ -73,26 +70,4 @@ TEST_CASE("kinks at rest, and vessels without any, are left alone") {
   CHECK(kinkCount(*network, points) > 0);
   CHECK(KinkRelaxer(*network).run(points) == 0);
   CHECK(std::equal(points.begin(), points.end(), network->points().begin()));
-}
-
-// A fold that closes sharpens without bound within a few degrees: what is drawn straight must not jump there.
-TEST_CASE("a vessel is drawn straight little by little as it folds") {
-  const Network network = lineOf(24, 0.006f);
-  const KinkRelaxer relaxer(network);
-  constexpr int kSteps = 360;  // a bend from nothing to half a turn, half a degree a step
-  float fastest = 0, farthest = 0;
-  std::vector<vec3> last(network.points().size(), vec3(0));
-  for (int step = 1; step <= kSteps; ++step) {
-    const std::vector<vec4> posed = bent(network, glm::radians(180.0f * float(step) / kSteps));
-    std::vector<vec4> points = posed;
-    relaxer.run(points);
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      const vec3 moved = vec3(points[k] - posed[k]);
-      fastest = std::max(fastest, glm::distance(moved, last[k]));
-      farthest = std::max(farthest, glm::length(moved));
-      last[k] = moved;
-    }
-  }
-  CHECK(farthest > 0.001f);
-  CHECK(fastest <= 0.011f * farthest);
 }
